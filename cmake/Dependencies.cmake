@@ -27,7 +27,8 @@ pkg_check_modules(slepc REQUIRED IMPORTED_TARGET slepc)
 pkg_check_modules(petsc REQUIRED IMPORTED_TARGET petsc)
 
 if(FLEXNECK_PYTHON)
-  # The system's, whichever comes first on the user's path: its NumPy and its place for packages.
+  # The system's interpreter, with its NumPy and its folder for packages, whichever Python comes
+  # first on the user's path.
   set(Python3_EXECUTABLE "/usr/bin/python3" CACHE FILEPATH "Interpreter of the Python package")
   set(PYBIND11_NOPYTHON ON)
   find_package(Python3 3.9 COMPONENTS Interpreter Development.Module)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # cmake --install: the command with its manual page, completion and shipped files; and, as component
-# `development`, the libraries of the rooms with their headers, for find_package(flexneck) and
-# pkg-config. Nothing holds the prefix: it may be moved.
+# `development`, the libraries of the source folders with their headers, for find_package(flexneck)
+# and pkg-config. No path of the prefix is stored, so the installed tree may be moved.
 include(CMakePackageConfigHelpers)
 
 set(flexneck_data "${CMAKE_INSTALL_DATADIR}/flexneck")
@@ -10,7 +10,7 @@ set(flexneck_config "${CMAKE_INSTALL_LIBDIR}/cmake/flexneck")
 
 # The command.
 install(TARGETS flexneck RUNTIME COMPONENT runtime)
-# The same place for every architecture: the program looks for it beside or above itself.
+# The folder is the same for every architecture: the program looks for it beside or above itself.
 install(TARGETS flexneck_fmu flexneck_fmu_formulas LIBRARY DESTINATION lib/flexneck COMPONENT runtime)
 install(TARGETS flexneck_mesher_program RUNTIME DESTINATION lib/flexneck COMPONENT runtime)
 set(made "${PROJECT_BINARY_DIR}/generated/reference")
@@ -19,7 +19,7 @@ install(FILES "${made}/flexneck"
         DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" COMPONENT runtime)
 install(FILES README.md LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
 
-# What it ships, laid out as in the sources: files name one another by these paths.
+# Shipped files, laid out as in the sources: files name one another by these paths.
 foreach(folder geometry geometry/examples pipeline/models pipeline/regulations pipeline/studies
                pipeline/studies/fits pipeline/verification)
   file(GLOB files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*")
@@ -30,7 +30,8 @@ install(FILES pipeline/fmu/muparser.txt DESTINATION "${flexneck_data}/pipeline/f
 install(DIRECTORY pipeline/report/page DESTINATION "${flexneck_data}/pipeline/report"
         COMPONENT runtime)
 
-# The rooms: target flexneck_multibody is flexneck::multibody for those who use it.
+# Libraries of the source folders: target flexneck_multibody is flexneck::multibody for users of the
+# package.
 set(flexneck_libraries
     foundation geometry mesh partition drawing xdmf mesher exchange modal_body body_exchange fe_modal multibody
     isolation pipeline)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cpack: flexneck_<version>_<architecture>.deb with the command and all it ships, and libflexneck-dev
-# with libraries and headers, and python3-flexneck. What the program is linked to is found by dpkg-shlibdeps.
+# cpack: flexneck_<version>_<architecture>.deb with the command and all shipped files,
+# libflexneck-dev with libraries and headers, and python3-flexneck. dpkg-shlibdeps finds the
+# libraries that the program is linked to.
 set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL runtime development)
@@ -37,7 +38,8 @@ if(FLEXNECK_PYTHON)
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION
       "Python package: studies, meshes, modes, models and runs as NumPy arrays.")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
-  # The module is of one version of Python; files and child processes are the command's.
+  # The module is built for one version of Python; the command's package brings the files and child
+  # processes.
   math(EXPR after "${Python3_VERSION_MINOR} + 1")
   string(CONCAT CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
          "flexneck (= ${PROJECT_VERSION}), python3-numpy, "

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Headers that most sources include are parsed once a build. A set serves the targets that compile
-# with the flags that it was compiled with: PETSc brings some along, and pipeline/ and the tests have
+# Headers that most sources include are parsed once per build. A set serves the targets that compile
+# with the flags it was compiled with: PETSc adds flags of its own, and pipeline/ and the tests have
 # another level of optimisation.
 option(FLEXNECK_PRECOMPILED_HEADERS "Parse the headers that most sources include once" ON)
 
@@ -13,7 +13,7 @@ set(flexneck_headers_petsc ${flexneck_headers_eigen} <slepceps.h>)
 set(flexneck_headers_catch2 ${flexneck_headers_eigen} <catch2/catch.hpp>)
 set(flexneck_headers_catch2_petsc ${flexneck_headers_catch2})
 
-# flexneck_add_headers(SET LIBRARIES …): the target whose compiled headers others use.
+# flexneck_add_headers(SET LIBRARIES …): adds the target whose compiled headers others use.
 function(flexneck_add_headers set)
   if(NOT FLEXNECK_PRECOMPILED_HEADERS)
     return()
@@ -25,7 +25,7 @@ function(flexneck_add_headers set)
   target_precompile_headers(flexneck_headers_${set} PRIVATE ${flexneck_headers_${set}})
 endfunction()
 
-# flexneck_use_headers(SET TARGET …)
+# flexneck_use_headers(SET TARGET …): lets a target use the compiled headers of a set.
 function(flexneck_use_headers set)
   if(NOT FLEXNECK_PRECOMPILED_HEADERS)
     return()

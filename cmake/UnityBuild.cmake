@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Sources of one folder are compiled a few at a time as one: their headers are parsed and the templates
-# of Eigen instantiated once for all of them. With OFF a changed source is compiled by itself.
+# Sources of one folder are compiled a few at a time as one: their headers are parsed, and the
+# templates of Eigen instantiated, once for all of them. With OFF a changed source is compiled by
+# itself.
 option(FLEXNECK_UNITY "Compile the sources of a folder together" ON)
 
-# flexneck_compile_by_folder(TARGET [TOGETHER number] [ALONE source …]): ALONE are those that share a
-# name with a neighbour where each may have its own.
+# flexneck_compile_by_folder(TARGET [TOGETHER number] [ALONE source …]): ALONE lists the sources
+# that define a name which a neighbour, too, defines for itself.
 function(flexneck_compile_by_folder target)
   if(NOT FLEXNECK_UNITY)
     return()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# flexneck::warnings: linked privately by every target of ours; nothing of it is installed.
+# flexneck::warnings: every target of the project links it privately; it is not installed.
 add_library(flexneck_warnings INTERFACE)
 add_library(flexneck::warnings ALIAS flexneck_warnings)
 # GCC 12 sees overlapping copies in plain string concatenation (GCC bug 105651), and with precompiled

@@ -11,8 +11,8 @@
 namespace flexneck::geometry {
 namespace {
 
-// From a small joint to a large vehicle. A length off by a factor of 1000 leaves the range for
-// everything between 2 cm and 5 m, and the mass with it.
+// The ranges span a small joint to a large vehicle. A length wrong by a factor of 1000 leaves the
+// range for everything between 2 cm and 5 m, and the mass with it.
 constexpr double kSmallestExtent_m = 0.005;
 constexpr double kLargestExtent_m = 20;
 constexpr double kSmallestMass_kg = 1e-4;
@@ -24,15 +24,16 @@ std::string remark(const char* what, double value, const char* unit, bool is_lar
                    : "metres declared as millimetres?");
 }
 
-/// Densities of solids that are about as stiff.
+/// Range of densities of solids of similar stiffness.
 struct DensityRange {
-  double modulus_Pa;  ///< the row holds from here on
+  double modulus_Pa;  ///< lower bound of Young's modulus of the row
   double low_kg_m3, usual_kg_m3, high_kg_m3;
   const char* solids;
 };
 
-/// Stiffest first. High enough for tungsten, lead and filled rubber, low enough for fibre
-/// composites, wood and foam; g times the usual figure is outside each range but that of foams.
+/// Solids, stiffest first. The ranges are high enough for tungsten, lead and filled rubber, low
+/// enough for fibre composites, wood and foam; g times the usual density is outside each range but
+/// that of foams.
 constexpr std::array<DensityRange, 5> kSolids = {{
     {100e9, 1400, 7850, 23000, "metals and composites"},
     {40e9, 1400, 2700, 11000, "light metals, glass and composites"},
@@ -41,7 +42,7 @@ constexpr std::array<DensityRange, 5> kSolids = {{
     {0, 5, 200, 3000, "foams and soft tissue"},
 }};
 constexpr DensityRange kRubbers = {0, 600, 1000, 3000, "rubbers and gels"};
-/// Foams are compressible.
+/// Bound above which a soft solid is a rubber: foams are compressible.
 constexpr double kRubberPoissonsRatio = 0.45;
 
 const DensityRange& range_of(double youngs_modulus_Pa, double poissons_ratio) {
@@ -51,13 +52,13 @@ const DensityRange& range_of(double youngs_modulus_Pa, double poissons_ratio) {
   return row->modulus_Pa == 0 && poissons_ratio > kRubberPoissonsRatio ? kRubbers : *row;
 }
 
-/// A slip makes the figure greater by the factor.
+/// A mistake of units that multiplies the density by the factor.
 struct Slip {
   double factor;
   const char* what;
 };
 
-/// In a deck whose unit of length is L a weight density counts g / L times too much.
+/// Known mistakes. In a deck whose unit of length is L a weight density is g / L times too high.
 constexpr std::array<Slip, 6> kSlips = {{
     {kStandardGravity_m_s2, "a weight density in N/m^3"},
     {kStandardGravity_m_s2 / 0.0254, "a weight density in lbf/in^3 for lbf s^2/in^4"},
@@ -67,7 +68,8 @@ constexpr std::array<Slip, 6> kSlips = {{
     {0.001, "a density in g/cm^3 for kg/m^3"},
 }};
 
-/// The slip after which the density would come nearest to the usual; null if none explains it.
+/// The mistake whose correction brings the density closest to the usual one; null if none explains
+/// it.
 const Slip* slip_of(const DensityRange& range, double density_kg_m3) {
   const auto distance = [&](const Slip& slip) {
     return std::abs(std::log(density_kg_m3 / slip.factor / range.usual_kg_m3));

@@ -3,8 +3,8 @@
 
 namespace flexneck {
 
-// Kinds of ASCII's characters. Those of C depend on the locale: in a Turkish one toupper('i') is
-// 'i', in one of ISO 8859 half a character of UTF-8 is a letter.
+// Character classes of ASCII. C's functions depend on the locale: in a Turkish locale toupper('i')
+// is 'i', in an ISO 8859 locale half a character of UTF-8 is a letter.
 
 constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr mode_t kPermissions = 0666;  ///< less the user's mask
+constexpr mode_t kPermissions = 0666;  ///< masked by the user's umask
 
 bool sync(int descriptor) {
   const FileClock clock(FileClock::Work::sync);
@@ -29,7 +29,7 @@ bool sync(int descriptor) {
 void sync_folder(const fs::path& folder) {
   const FileDescriptor entries(
       uninterrupted([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); }));
-  // Some file systems have nothing to sync in a folder and say so by EINVAL.
+  // Some file systems have nothing to sync in a folder and report EINVAL.
   if (entries && (sync(entries.get()) || errno == EINVAL)) return;
   throw ComputationError(folder.string() + ": cannot be written (" + std::strerror(errno) + ")");
 }

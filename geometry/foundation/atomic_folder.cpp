@@ -3,7 +3,7 @@
 
 #include <cstring>
 #include <fcntl.h>
-#include <stdio.h>  // renameat2 is Linux's
+#include <stdio.h>  // renameat2 is specific to Linux
 #include <sys/stat.h>
 #include <utility>
 
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr mode_t kPermissions = 0777;  ///< less the user's mask
+constexpr mode_t kPermissions = 0777;  ///< masked by the user's umask
 
 fs::path parent_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
@@ -45,7 +45,7 @@ void AtomicFolder::commit() {
     return ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), flags) == 0;
   };
   sync_folder(temporary_);
-  if (take_place(0)) {  // where there is none, or an empty one
+  if (take_place(0)) {  // if no folder is there, or an empty one
     temporary_.clear();
   } else if (!take_place(RENAME_EXCHANGE)) {
     throw ComputationError(path_.string() + ": cannot be written (" + std::strerror(errno) +

@@ -9,10 +9,10 @@
 namespace flexneck {
 
 /// A folder of files that belong together and appear whole or not at all. They are written into a
-/// hidden one beside it, of which only a killed process leaves anything behind.
+/// hidden folder beside it, which only a killed process leaves behind.
 class AtomicFolder {
  public:
-  /// @throws InputError if there is no folder to make it in, or it may not be written.
+  /// @throws InputError if the parent folder does not exist or cannot be written.
   explicit AtomicFolder(std::filesystem::path path);
   ~AtomicFolder();
   AtomicFolder(const AtomicFolder&) = delete;
@@ -20,13 +20,13 @@ class AtomicFolder {
 
   std::filesystem::path operator/(const std::string& name) const { return temporary_ / name; }
 
-  /// Brings the folder to its place; one that is there goes with all that it holds.
-  /// @throws ComputationError if that fails; what was in the place before is still there then.
+  /// Moves the folder to its place; an existing one is removed with all its contents.
+  /// @throws ComputationError if that fails; an existing folder is then still there.
   void commit();
 
  private:
   std::filesystem::path path_;
-  std::filesystem::path temporary_;  ///< empty once it is in its place
+  std::filesystem::path temporary_;  ///< empty once the folder is in its place
   SignalCleanup cleanup_;
 };
 

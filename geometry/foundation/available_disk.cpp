@@ -12,7 +12,7 @@ namespace flexneck {
 double available_disk(const std::filesystem::path& folder) {
   struct statvfs disk {};
   const bool is_known = ::statvfs(folder.empty() ? "." : folder.c_str(), &disk) == 0;
-  // Some network folders know neither their size nor what is free of it.
+  // Some network file systems report neither their size nor their free space.
   if (!is_known || disk.f_blocks == 0) return std::numeric_limits<double>::infinity();
   return static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize);
 }

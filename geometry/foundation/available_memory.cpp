@@ -24,7 +24,7 @@ double number_at(const std::string& text, std::size_t place, double otherwise) {
   return error == std::errc() ? number : otherwise;
 }
 
-/// The number behind a word, "MemAvailable: 123 kB"; if there is none, `otherwise`.
+/// The number that follows a word, as in "MemAvailable: 123 kB"; `otherwise` if there is none.
 double number_behind(const fs::path& file, const std::string& word, double otherwise) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {
@@ -35,7 +35,7 @@ double number_behind(const fs::path& file, const std::string& word, double other
   return otherwise;
 }
 
-/// A file of one number; "max" and what is missing are `otherwise`.
+/// The number that a file holds; `otherwise` if it says "max" or is missing.
 double number_in(const fs::path& file, double otherwise) {
   std::ifstream stream(file);
   std::string line;
@@ -43,7 +43,7 @@ double number_in(const fs::path& file, double otherwise) {
   return number_at(line, 0, otherwise);
 }
 
-/// What a folder of control groups leaves, of either version. Files in the cache make room.
+/// Bytes that a control group (version 1 or 2) leaves, by its folder. Cached files count as free.
 double left_in_group(const fs::path& group) {
   const double limit = number_in(group / "memory.max", kUnknown);
   const double old_limit = number_in(group / "memory.limit_in_bytes", kUnknown);
@@ -54,7 +54,8 @@ double left_in_group(const fs::path& group) {
   return std::min(limit, old_limit) - std::max(used - cached, 0.0);
 }
 
-/// "4:memory:/a/b" or "0::/a/b": the group's folder and all above it count.
+/// Bytes that the process's control groups leave. A line of /proc/self/cgroup reads "4:memory:/a/b"
+/// or "0::/a/b"; the group's folder and all above it count.
 double left_in_groups(const fs::path& root) {
   const fs::path all = root / "sys/fs/cgroup";
   double left = std::min(left_in_group(all), left_in_group(all / "memory"));
@@ -84,7 +85,7 @@ double left_of_addresses(const fs::path& root) {
 }  // namespace
 
 double available_memory(const fs::path& root) {
-  constexpr double kKilobyte = 1024;  // which the kernel calls kB
+  constexpr double kKilobyte = 1024;  // the unit that the kernel calls kB
   const double of_machine =
       kKilobyte * number_behind(root / "proc/meminfo", "MemAvailable:", kUnknown);
   return std::max(std::min({of_machine, left_in_groups(root), left_of_addresses(root)}), 0.0);

@@ -8,31 +8,32 @@
 
 namespace flexneck {
 
-/// Memory ran out in the midst of a computation, of which nothing else is known: neither that a
-/// matrix is not definite nor that an iteration would not converge.
+/// Thrown when memory runs out during a computation. It tells nothing else: neither that a matrix
+/// is not definite nor that an iteration does not converge.
 class OutOfMemory : public ComputationError {
  public:
   using ComputationError::ComputationError;
 };
 
-/// Bytes that this process may still take: the least of what the machine has (MemAvailable), what
-/// the limits of its control group leave, and that of its address space (ulimit -v). Infinite where
-/// the system does not say.
-/// @param root of /proc and /sys; another one serves tests
+/// Bytes that this process may still allocate: the least of the machine's free memory
+/// (MemAvailable), the rest of its control group's limit, and the rest of its address space limit
+/// (ulimit -v). Infinite if the system does not tell.
+/// @param root folder of /proc and /sys; tests pass another one
 double available_memory(const std::filesystem::path& root = "/");
 
-/// The most that this process has had, bytes.
+/// Peak memory of this process so far, in bytes.
 double peak_memory();
 
-/// "12.3 GB"
+/// Text of a size of memory, as "12.3 GB".
 std::string memory_text(double bytes);
 
-/// "memory runs out while <doing>: 1.2 GB are taken, 0.3 GB are free; <advice>"
+/// Exception with the text "memory runs out while <doing>: 1.2 GB are taken, 0.3 GB are free;
+/// <advice>".
 OutOfMemory out_of_memory(const std::string& doing, const std::string& advice);
 
-/// Refuses what will not fit into memory, before it starts.
-/// @param what needs them, e.g. "the factor of 123 million entries"
-/// @param advice what to do instead
+/// Refuses a computation that will not fit into memory before it starts.
+/// @param what names the object that takes the memory, e.g. "the factor of 123 million entries"
+/// @param advice tells the user what to do instead
 /// @throws InputError "<what> takes about 12.3 GB of memory, 8.1 GB are free: <advice>"
 void require_memory(const std::string& what, double bytes, const std::string& advice);
 

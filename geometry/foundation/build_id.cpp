@@ -29,7 +29,8 @@ std::string hexadecimal(Bytes bytes) {
   return text;
 }
 
-/// Notes follow each other: a head, a name and what it says, each padded to four bytes.
+/// The build id among the notes of an ELF file. Each note is a header, a name and a description,
+/// each padded to four bytes.
 std::string id_in(Bytes notes) {
   constexpr auto padded = [](std::size_t size) { return (size + 3) / 4 * 4; };
   while (notes.size() > sizeof(ElfW(Nhdr))) {
@@ -47,7 +48,7 @@ std::string id_in(Bytes notes) {
   return {};
 }
 
-/// In the object that is looked for.
+/// Its address lies in the loaded object whose build id is sought.
 const char kHere = 0;
 
 bool holds_this(const dl_phdr_info& info) {
@@ -59,12 +60,12 @@ bool holds_this(const dl_phdr_info& info) {
   });
 }
 
-/// Called for each loaded file until it returns 1.
+/// Callback of dl_iterate_phdr: called for each loaded object until it returns 1.
 int look_into(dl_phdr_info* info, std::size_t /*size*/, void* found) {
   if (!holds_this(*info)) return 0;
   for (const ElfW(Phdr) & part : std::span(info->dlpi_phdr, info->dlpi_phnum)) {
     if (part.p_type != PT_NOTE) continue;
-    // The loader tells addresses as numbers.
+    // The loader gives addresses as numbers.
     const auto* begin = std::bit_cast<const unsigned char*>(info->dlpi_addr + part.p_vaddr);
     const std::string id = id_in({begin, part.p_memsz});
     if (!id.empty()) *static_cast<std::string*>(found) = id;

@@ -5,10 +5,10 @@
 
 namespace flexneck {
 
-/// What tells the running program, or the shared object that this is a part of, from that of
-/// another build: its GNU build id (note NT_GNU_BUILD_ID of the ELF file) in hexadecimal digits,
-/// which the linker makes of what it links. Installing and stripping, which change the file, leave
-/// it as it is. Of a program that was linked without one, the hash of its file.
+/// Identifier of the build of the running program, or of the shared object that this code is a part
+/// of: its GNU build id (note NT_GNU_BUILD_ID of the ELF file) in hexadecimal digits, which the
+/// linker computes from its inputs. Installing and stripping change the file but not the build id.
+/// A program linked without one has the hash of its file instead.
 std::string build_id();
 
 }  // namespace flexneck

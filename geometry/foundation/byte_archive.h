@@ -19,10 +19,10 @@
 
 namespace flexneck {
 
-// Values as bytes and back, for data that leave a process and come back to the same program:
-// numbers in the machine's order, lists with their length in front. Of a class either a member
-// archive(all), which calls all(field, field, …), or a function archive(all, value) found by its
-// argument says what belongs to it. Both directions call the same.
+// Serialisation of values to bytes and back, for data that leave a process and come back to the
+// same program: numbers in the machine's byte order, lists preceded by their length. A class lists
+// its fields either in a member archive(all), which calls all(field, field, …), or in a function
+// archive(all, value) found by its argument. Reading and writing call the same function.
 
 template <class Archive, class T>
 concept HasArchiveMember = requires(Archive& all, T& value) {
@@ -92,7 +92,7 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// All members throw InputError if the bytes end too early or say what cannot be.
+/// All members throw InputError if the bytes end too early or hold an impossible value.
 class ByteReader {
  public:
   static constexpr bool kReads = true;
@@ -103,7 +103,7 @@ class ByteReader {
   void operator()(T&... values) {
     (get(values), ...);
   }
-  /// @throws InputError if there are bytes left.
+  /// @throws InputError if bytes are left over.
   void finish() const {
     if (!rest_.empty()) refuse();
   }
@@ -114,7 +114,7 @@ class ByteReader {
  private:
   void get_raw(void* data, std::size_t size) {
     if (size > rest_.size()) refuse();
-    if (size == 0) return;  // then either may be null, which memcpy() does not take
+    if (size == 0) return;  // either pointer may be null then, which memcpy() does not allow
     std::memcpy(data, rest_.data(), size);
     rest_.remove_prefix(size);
   }
@@ -133,7 +133,7 @@ class ByteReader {
       archive(*this, value);
     }
   }
-  /// A number of things, each of at least a byte but where there are none.
+  /// Reads the number of items that follow; each takes at least one byte.
   std::size_t get_size() {
     std::uint64_t count = 0;
     get(count);
@@ -171,7 +171,7 @@ class ByteReader {
   }
   template <class S, int R, int C, int O, int MR, int MC>
   void get(Eigen::Matrix<S, R, C, O, MR, MC>& matrix) {
-    std::uint64_t rows = 0, columns = 0;  // of an empty matrix either may be more than bytes follow
+    std::uint64_t rows = 0, columns = 0;  // one of an empty matrix may exceed the bytes that follow
     get(rows);
     get(columns);
     constexpr std::uint64_t kMost = std::numeric_limits<int>::max();

@@ -18,7 +18,8 @@ namespace flexneck {
 namespace {
 
 constexpr std::string_view kOurs = "flexneck, XXH3-128 of all after 512 bytes: ";
-/// What no foreign file begins with. A damaged rest is then damage, not another kind of file.
+/// Beginning of every file written by this program and of no foreign one. If the rest of the block
+/// differs, the file is damaged, not of another kind.
 constexpr std::string_view kMark = kOurs.substr(0, 8);
 constexpr std::size_t kDigits = 32;
 
@@ -54,7 +55,8 @@ bool is_ours(const HashBlock& block) {
   return std::string_view(block.data(), block.size()).starts_with(kMark);
 }
 
-/// Whole as we write it. A text, such as a table whose first column is called "flexneck", is none.
+/// True if the block is complete as written by this program. A text, such as a table whose first
+/// column is called "flexneck", is not.
 bool is_complete(const HashBlock& block) {
   const std::string_view text(block.data(), block.size());
   const std::size_t end = kOurs.size() + kDigits;

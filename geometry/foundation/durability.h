@@ -3,10 +3,11 @@
 
 namespace flexneck {
 
-/// What of a file is on the disk, whatever happens to the machine, once it is in its place.
+/// The part of a file that is safe on the disk, whatever happens to the machine, once the file is
+/// in its place.
 enum class Durability {
-  content,  ///< all of it; its name, with the next sync_folder()
-  none      ///< what can be made again from other files: the system writes it when it likes
+  content,  ///< its whole content; its name, with the next sync_folder()
+  none  ///< nothing: it can be made again from other files, and the system writes it when it likes
 };
 
 }  // namespace flexneck

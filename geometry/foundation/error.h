@@ -5,8 +5,8 @@
 
 namespace flexneck {
 
-/// What the user gave cannot be used: an argument, a study, a file. The text is one line that says
-/// where, what was expected, what was found and what to do. The command exits with 2.
+/// Unusable input of the user: an argument, a study, a file. The text is one line that says where,
+/// what was expected, what was found and what to do. The command exits with 2.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

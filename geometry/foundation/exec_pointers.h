@@ -6,7 +6,7 @@
 
 namespace flexneck {
 
-/// Arguments or variables as the calls of exec take them: pointers into the texts, the last one
+/// Pointers to arguments or variables as the exec functions take them: into the texts, the last one
 /// null.
 inline std::vector<char*> exec_pointers(std::vector<std::string>& texts) {
   std::vector<char*> pointers;

@@ -7,7 +7,7 @@
 
 namespace flexneck {
 
-/// Owns a file descriptor of the system; -1 for none.
+/// Owns a file descriptor of the system; -1 if it holds none.
 class FileDescriptor {
  public:
   FileDescriptor() = default;
@@ -24,8 +24,8 @@ class FileDescriptor {
 
   explicit operator bool() const { return number_ >= 0; }
   int get() const { return number_; }
-  /// @return false with errno if the system reports a failure; the descriptor is gone either way,
-  /// so that a signal which interrupts the call changes nothing
+  /// @return false with errno if the system reports a failure; the descriptor is closed either way,
+  /// so a signal that interrupts the call changes nothing
   bool close() { return number_ < 0 || ::close(std::exchange(number_, -1)) == 0 || errno == EINTR; }
 
  private:

@@ -5,15 +5,15 @@
 
 namespace flexneck {
 
-/// What the care for files has cost this process so far, all threads, by the clock on the wall:
-/// counted for the process, as the system counts its processor time.
+/// Wall-clock time that this process has spent so far, in all its threads, on hashing and syncing
+/// files.
 struct FileSeconds {
-  double hash = 0;  ///< of contents, written and read
-  double sync = 0;  ///< until what was written is on the disk
+  double hash = 0;  ///< hashing contents that are written or read
+  double sync = 0;  ///< waiting until written content is on the disk
 };
 FileSeconds file_seconds();
 
-/// Counts the time of its scope.
+/// Adds the time of its scope.
 class FileClock {
  public:
   enum class Work { hash, sync };

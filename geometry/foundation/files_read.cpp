@@ -25,7 +25,7 @@ FilesRead*& innermost() {
   return collector;
 }
 
-/// Differs from process to process.
+/// Hash of a file with unknown reads; it differs from process to process.
 const std::string& unknown_hash() {
   static const std::string hash =
       std::string(kUnknown) + "-" + std::to_string(::getpid()) + "-" +
@@ -33,7 +33,7 @@ const std::string& unknown_hash() {
   return hash;
 }
 
-/// Nothing is collected meanwhile.
+/// Stops the collecting in this thread during its scope.
 class Pause {
  public:
   Pause() : collector_(std::exchange(innermost(), nullptr)) {}
@@ -51,7 +51,7 @@ std::string hash_now(const fs::path& path) {
   try {
     std::error_code none;
     return fs::is_regular_file(path, none) ? hash_of_file(path.string()) : kMissing;
-  } catch (const InputError&) {  // it may not be read
+  } catch (const InputError&) {  // no permission to read it
     return kMissing;
   }
 }
@@ -66,7 +66,7 @@ FilesRead::~FilesRead() {
 void note_read(const FileRead& file) {
   FilesRead* const collector = innermost();
   if (collector == nullptr) return;
-  // An unknown file of a child process is one of this process.
+  // An unknown file of a child process becomes one of this process.
   const FileRead noted{file.path, is_unknown(file) ? unknown_hash() : file.hash};
   std::vector<FileRead>& files = collector->files_;
   if (std::find(files.begin(), files.end(), noted) == files.end()) files.push_back(noted);
@@ -76,7 +76,7 @@ void note_read(const fs::path& path) {
   if (innermost() == nullptr) return;
   FileRead file{fs::absolute(path).string(), {}};
   {
-    const Pause pause;  // the hash reads, too
+    const Pause pause;  // hashing opens the file, too
     file.hash = hash_now(path);
   }
   note_read(file);

@@ -9,19 +9,20 @@ namespace flexneck {
 
 /// A file as it was when it was read.
 struct FileRead {
-  std::string path;  ///< absolute, as it was named: a link is followed when the file is looked at
-  std::string hash;  ///< of its content, by hash_now()
+  std::string path;  ///< absolute, as it was named: links are followed when the file is opened
+  std::string hash;  ///< hash of its content by hash_now()
 
   bool operator==(const FileRead&) const = default;
 };
 
-/// The hash of a file's content as hash_of_file() has it, and a word for one that is not there or
-/// cannot be read: to come into being is a change, too.
+/// The hash of a file's content by hash_of_file(), or a word for a file that is missing or cannot
+/// be read: if it appears later, that is a change, too.
 std::string hash_now(const std::filesystem::path& path);
 
-/// Collects the files that this thread opens to read while it lives, each once for each content,
-/// those of child processes too, which tell their parent. What it has collected goes on to the one
-/// around it, if there is any. Files in a TemporaryFolder count for nothing once that is gone.
+/// Collects the files that this thread opens to read during its lifetime, each once for each
+/// content, including those of child processes, which report them to their parent. At its end the
+/// collected files pass to the enclosing collector, if there is any. Files in a TemporaryFolder no
+/// longer count once it is removed.
 class FilesRead {
  public:
   FilesRead();
@@ -29,9 +30,9 @@ class FilesRead {
   FilesRead(const FilesRead&) = delete;
   FilesRead& operator=(const FilesRead&) = delete;
 
-  /// In the order of their first reading.
+  /// The files in the order of their first reading.
   const std::vector<FileRead>& files() const { return files_; }
-  /// Drops what was collected, where the files' content is known otherwise.
+  /// Drops the collected files, where their content is known by other means.
   void forget() { files_.clear(); }
 
  private:
@@ -42,21 +43,21 @@ class FilesRead {
   std::vector<FileRead> files_;
 };
 
-// For those who collect in this thread; without any, nothing is done.
+// Functions that report to the collectors of this thread; without any collector they do nothing.
 
-/// Before a file is opened: what changes afterwards then counts as a change.
+/// Notes a file before it is opened: a later change of its content then counts as a change.
 void note_read(const std::filesystem::path& path);
-/// A file that was read by another thread or process, or for an earlier use of what was kept.
+/// Notes a file that was read by another thread or process, or when a cached result was computed.
 void note_read(const FileRead& file);
 void note_reads(const std::vector<FileRead>& files);
-/// A file that reads what nobody knows, such as a script that runs commands: it is the same as
-/// before for this process alone.
+/// Notes a file that reads unknown files, such as a script that runs commands: its hash is valid
+/// within this process alone.
 void note_unknown_reads(const std::filesystem::path& path);
-/// Tells whether it is such a file, of whatever process.
+/// Returns whether the file reads unknown files, noted by whatever process.
 bool is_unknown(const FileRead& file);
-/// Tells whether its content was there and says all.
+/// Returns whether the file existed and its hash covers all that it reads.
 bool has_content(const FileRead& file);
-/// Tells whether a hash is of such a file as this process has noted it.
+/// Returns whether the hash is this process's hash of a file with unknown reads.
 bool is_unknown_here(const std::string& hash);
 void forget_reads_in(const std::filesystem::path& folder);
 

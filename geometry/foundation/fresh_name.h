@@ -8,8 +8,8 @@
 
 namespace flexneck {
 
-/// Tries fresh hidden names in the folder until one is free.
-/// @param take  makes the name; false with errno if it cannot
+/// Tries new hidden names in the folder until one is free.
+/// @param take  creates the entry of that name; returns false with errno if it cannot
 /// @return the name, or an empty one with errno.
 template <typename Take>
 std::filesystem::path take_fresh_name(const std::filesystem::path& folder, const Take& take) {

@@ -13,7 +13,7 @@ namespace flexneck {
 struct Hdf5Dictionary::Impl {
   explicit Impl(std::filesystem::path path) : bytes(std::move(path)) {}
 
-  AtomicFile bytes;  ///< what HDF5 writes into, so the last to go
+  AtomicFile bytes;  ///< HDF5 writes into it, so it is destroyed last
   Hdf5Handle file;
 
   void require(bool done, const std::string& key) const {

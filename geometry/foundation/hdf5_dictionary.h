@@ -12,11 +12,11 @@
 
 namespace flexneck {
 
-/// A dictionary of Python in HDF5, for programs that read one back item by item: each item has the
+/// A Python dictionary in HDF5, for programs that read one back item by item: each item has the
 /// attribute `datatype`, the name of its class ("int", "float", "str", "ndarray", "dict"), of
-/// variable length. None of the attributes of our own files. It takes its place on commit();
-/// without commit() nothing is left. The same items give the same bytes. All members throw
-/// ComputationError when writing fails.
+/// variable length, and none of the attributes of this program's own formats. The file takes its
+/// place on commit(); without commit() nothing is left. The same items give the same bytes. All
+/// members throw ComputationError when writing fails.
 class Hdf5Dictionary {
  public:
   /// @throws InputError if the folder cannot be written.
@@ -28,7 +28,7 @@ class Hdf5Dictionary {
   void integer(const std::string& key, std::int64_t value);
   void real(const std::string& key, double value);
   void text(const std::string& key, std::string_view value);
-  /// Row-major.
+  /// Writes an array, row-major.
   void array(const std::string& key, std::span<const double> values, const Shape& shape);
   void array(const std::string& key, std::span<const std::int32_t> values, const Shape& shape);
   void empty_dictionary(const std::string& key);

@@ -8,7 +8,7 @@ namespace flexneck {
 
 namespace {
 
-/// zlib's largest ratio is 1032.
+/// Bound of the compression ratio: zlib's largest is 1032.
 constexpr double kMaxCompression = 1040;
 
 std::string filter_problem(const Hdf5Handle& creation, int filters) {
@@ -29,7 +29,7 @@ std::string filter_problem(const Hdf5Handle& creation, int filters) {
   return {};
 }
 
-/// Extents, slowest first; none if HDF5 cannot tell.
+/// Extents, slowest index first; none if HDF5 cannot tell.
 std::optional<std::vector<double>> extents_of(const Hdf5Handle& space) {
   const int rank = H5Sget_simple_extent_ndims(space.get());
   if (rank < 0) return {};
@@ -38,7 +38,7 @@ std::optional<std::vector<double>> extents_of(const Hdf5Handle& space) {
   return std::vector<double>(extents.begin(), extents.end());
 }
 
-/// Chunks that a dataset of these extents has.
+/// Number of chunks of a dataset with these extents.
 double chunk_count(const std::vector<double>& extents, const Hdf5Handle& creation) {
   std::vector<hsize_t> chunk(extents.size(), 1);
   H5Pget_chunk(creation.get(), static_cast<int>(chunk.size()), chunk.data());
@@ -56,7 +56,7 @@ std::optional<std::string> extent_problem(const Hdf5Handle& dataset, std::uintma
   const int foreign_files = H5Pget_external_count(creation.get());
   const int filters = H5Pget_nfilters(creation.get());
   if (layout < 0 || foreign_files < 0 || filters < 0) return {};
-  // Before anything is asked for which HDF5 would open another file.
+  // This comes first: other queries might let HDF5 open another file.
   if (layout == H5D_VIRTUAL || foreign_files > 0) {
     return "expected data in this file, found them in another one";
   }

@@ -15,19 +15,19 @@
 
 namespace flexneck {
 
-/// Extents of a dataset, slowest index first. In an expected shape kAnyExtent matches everything.
+/// Extents of a dataset, slowest index first. In an expected shape kAnyExtent matches every extent.
 using Shape = std::vector<std::size_t>;
 inline constexpr std::size_t kAnyExtent = static_cast<std::size_t>(-1);
 
-/// What a file of ours is. Written as the root attributes `format` and `schema_version`, next to
-/// `units` = "SI".
+/// Name and version of a file format of this program. Written as the root attributes `format` and
+/// `schema_version`, next to `units` = "SI".
 struct FileFormat {
   std::string_view name;     ///< e.g. "flexneck mesh"
   int schema_version;        ///< raised when a reader of the old layout would fail
   std::string_view made_by;  ///< the command that makes such a file, for error messages
 };
 
-/// What a file says that it is; empty if it is no HDF5 file that can be read or says nothing.
+/// The root attribute `format`; empty if the file is no readable HDF5 file or has none.
 /// @throws InputError as trust_of() does.
 std::string format_of(const std::filesystem::path& path);
 
@@ -50,8 +50,8 @@ class Hdf5Writer {
   void write(const std::string& dataset, std::span<const std::int32_t> values, const Shape& shape);
   void write(const std::string& dataset, const std::vector<std::string>& values);
 
-  /// Adds rows to a dataset of shape (rows, row…), which is written block by block: for more values
-  /// than memory holds. It is complete after commit(), and has no attribute but `units`.
+  /// Adds rows to a dataset of shape (rows, row…), which is written block by block, so that it may
+  /// hold more values than memory. It is complete after commit(), and has no attribute but `units`.
   /// @param rows row-major, any number of whole rows, even none
   /// @param row extents of one row, none of them 0; empty for a dataset of shape (rows)
   void append(const std::string& dataset, std::span<const double> rows, const Shape& row,
@@ -62,23 +62,24 @@ class Hdf5Writer {
   void write_attribute(const std::string& object, const std::string& name, std::int64_t value);
 
   void commit(Durability durability = Durability::content);
-  /// With work, if any, that is done while the disk takes the content. If it throws, nothing is
-  /// left.
+  /// As commit() with the content on the disk; calls `meanwhile`, if any, while the disk takes the
+  /// content. If it throws, nothing is left.
   void commit(const std::function<void()>& meanwhile);
 
  private:
-  /// Completes the content; only its place is left to be taken.
+  /// Completes the content without moving the file to its place.
   void complete(Durability durability);
 
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
-/// Reads an HDF5 file of a format of ours. Before HDF5 sees it, the hash that our files carry is
-/// checked; a file without one is foreign, whoever wrote it: it may have numbers of any width that
-/// fit and strings of either kind, but neither links to elsewhere nor data outside of it.
-/// Every member throws InputError with one line: the file, the dataset or attribute, what was
-/// expected, what was found, what to do; and ComputationError if a verified file cannot be read.
+/// Reads an HDF5 file of a format of this program. The hash that such files carry is checked before
+/// HDF5 opens the file. A file without one is foreign, whoever wrote it: it may have numbers of any
+/// width that fit and strings of either kind, but neither links to other files nor data outside of
+/// itself. Every member throws InputError with one line: the file, the dataset or attribute, what
+/// was expected, what was found, what to do; and ComputationError if a verified file cannot be
+/// read.
 class Hdf5Reader {
  public:
   /// Checks that the file is HDF5, of this format and of a schema version no newer than known.
@@ -98,8 +99,8 @@ class Hdf5Reader {
   std::vector<std::string> attributes(const std::string& object) const;
   Shape shape(const std::string& dataset) const;
 
-  /// Row-major values; `expected` has the dataset's rank, extents may be kAnyExtent. Values that
-  /// are not finite are refused. `unit` must equal the dataset's attribute `units`.
+  /// Returns values, row-major. `expected` has the dataset's rank, extents may be kAnyExtent.
+  /// Values that are not finite are refused. `unit` must equal the dataset's attribute `units`.
   std::vector<double> read_doubles(const std::string& dataset, const Shape& expected,
                                    std::string_view unit) const;
   std::vector<std::int32_t> read_integers(const std::string& dataset, const Shape& expected) const;
@@ -109,8 +110,8 @@ class Hdf5Reader {
   double double_attribute(const std::string& object, const std::string& name) const;
   std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
 
-  /// For checks that only the caller can make: throws InputError "<path>: <object>: <problem>;
-  /// make it again with '<command>'".
+  /// Reports the failure of a check that only the caller can make: throws InputError "<path>:
+  /// <object>: <problem>; make it again with '<command>'".
   [[noreturn]] void refuse(const std::string& object, const std::string& problem) const;
 
  private:

@@ -31,7 +31,7 @@ class Hdf5Handle {
   }
 
   void reset() { close(); }
-  /// @return false if HDF5 could not close it; it is gone either way
+  /// @return false if HDF5 could not close it; the identifier is invalid either way
   bool close() { return id_ < 0 || closer_(std::exchange(id_, H5I_INVALID_HID)) >= 0; }
   explicit operator bool() const { return id_ >= 0; }
   hid_t get() const { return id_; }
@@ -41,9 +41,9 @@ class Hdf5Handle {
   Closer closer_ = nullptr;
 };
 
-/// To be called before anything else of HDF5. Its errors are exceptions of ours instead of texts on
-/// the console, no plug-in is loaded, and nothing is done at the end of the process, where HDF5
-/// crashes if a file could not be closed.
+/// Must be called before any other function of HDF5. HDF5 then prints no errors to the console
+/// (they become exceptions of this library), loads no plug-ins and does nothing at the end of the
+/// process, where it crashes if a file could not be closed.
 inline void start_hdf5() {
   H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

@@ -11,16 +11,16 @@ namespace flexneck {
 
 namespace {
 
-/// HDF5 copies this into its properties.
+/// Driver information in the access properties, copied by HDF5.
 struct AccessInfo {
   AtomicFile* file;
 };
 
-/// What HDF5 knows of an open file; `base`, which is its own, comes first.
+/// The driver's data of an open file; `base`, HDF5's own part, must come first.
 struct OpenFile {
   H5FD_t base;
   AtomicFile* file;
-  haddr_t allocated;  ///< by HDF5: its "end of allocation"
+  haddr_t allocated;  ///< "end of allocation", set by HDF5
   haddr_t size;
 };
 
@@ -69,7 +69,7 @@ herr_t write(H5FD_t* file, H5FD_mem_t /*kind*/, hid_t /*transfer*/, haddr_t plac
   return 0;
 }
 
-/// HDF5 asks for it before it closes a file: the size has to be what it has noted there.
+/// HDF5 calls it before it closes a file: the size must equal the "end of allocation".
 herr_t truncate(H5FD_t* file, hid_t /*transfer*/, hbool_t /*closing*/) {
   if (ours(file).size != ours(file).allocated) ours(file).file->resize(ours(file).allocated);
   ours(file).size = ours(file).allocated;
@@ -103,8 +103,8 @@ H5FD_class_t driver() {
 
 Hdf5Handle output_access(AtomicFile& file) {
   Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  // Until the library ends: H5Fclose reads the driver after a file's hold on it has gone, which
-  // must not be the last.
+  // The driver stays registered until the library ends: H5Fclose still reads it after it has
+  // released the file's reference to it, which must not be the last one.
   static const hid_t id = [] {
     const H5FD_class_t description = driver();
     return H5FDregister(&description);

@@ -7,9 +7,9 @@ namespace flexneck {
 
 class AtomicFile;
 
-/// File access with which HDF5 writes into `file`, which has to outlive the HDF5 file. HDF5 is
-/// never told of a failure, for it then keeps the file open and crashes when the process ends; the
-/// AtomicFile remembers it.
+/// File access properties with which HDF5 writes into `file`, which must outlive the HDF5 file.
+/// HDF5 is never told of a failure, for it then keeps the file open and crashes when the process
+/// ends; the AtomicFile remembers it.
 Hdf5Handle output_access(AtomicFile& file);
 
 }  // namespace flexneck

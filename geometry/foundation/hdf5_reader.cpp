@@ -25,7 +25,7 @@ bool fits(const Shape& found, const Shape& expected) {
                     [](std::size_t f, std::size_t e) { return e == kAnyExtent || f == e; });
 }
 
-/// HDF5 takes the nearest number for one that does not fit, unless this refuses it.
+/// Refuses a number out of range, for which HDF5 would take the nearest that fits.
 H5T_conv_ret_t refuse_out_of_range(H5T_conv_except_t problem, hid_t /*from*/, hid_t /*to*/,
                                    void* /*value*/, void* /*converted*/, void* is_out_of_range) {
   if (problem != H5T_CONV_EXCEPT_RANGE_HI && problem != H5T_CONV_EXCEPT_RANGE_LOW) {
@@ -169,7 +169,7 @@ std::int64_t Hdf5Reader::integer_attribute(const std::string& object,
                                            const std::string& name) const {
   const auto value =
       impl_->read_attribute<std::int64_t>(object, name, H5T_NATIVE_INT64, {H5T_INTEGER}, "integer");
-  // What HDF5 makes of a number without sign that does not fit.
+  // HDF5 returns this maximum for an unsigned number that does not fit.
   if (value == std::numeric_limits<std::int64_t>::max()) {
     refuse(object, "the attribute '" + name + "' is beyond the range of 64 bits with sign");
   }

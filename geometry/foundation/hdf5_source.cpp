@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of a text that HDF5 has filled up to a fixed length.
+/// Removes the padding with which HDF5 fills a text up to a fixed length.
 std::string without_padding(std::string text, H5T_str_t padding) {
   if (padding == H5T_STR_SPACEPAD) {
     text.erase(text.find_last_not_of(' ') + 1);
@@ -27,6 +27,7 @@ std::string without_padding(std::string text, H5T_str_t padding) {
   return text;
 }
 
+/// Reads strings of fixed length; none if they cannot be read.
 /// @param read fills a buffer in memory with values of a type
 template <typename Read>
 std::vector<std::string> fixed_strings(const Hdf5Handle& type, std::size_t count,
@@ -41,7 +42,7 @@ std::vector<std::string> fixed_strings(const Hdf5Handle& type, std::size_t count
   return values;
 }
 
-/// What HDF5 has allocated for strings of variable length.
+/// Owns the texts that HDF5 has allocated for strings of variable length.
 class VariableStrings {
  public:
   explicit VariableStrings(std::size_t count) : texts_(count, nullptr) {}
@@ -52,7 +53,7 @@ class VariableStrings {
   VariableStrings& operator=(const VariableStrings&) = delete;
 
   char** data() { return texts_.data(); }
-  /// h5py writes no text for an empty one.
+  /// h5py writes a null pointer for an empty string.
   std::vector<std::string> values() const {
     std::vector<std::string> values;
     for (const char* const text : texts_) values.emplace_back(text == nullptr ? "" : text);
@@ -63,7 +64,7 @@ class VariableStrings {
   std::vector<char*> texts_;
 };
 
-/// As many as asked for, or none if they cannot be read.
+/// Reads `count` strings; none if they cannot be read.
 template <typename Read>
 std::vector<std::string> strings(const Hdf5Handle& type, std::size_t count, const Read& read) {
   if (H5Tis_variable_str(type.get()) <= 0) return fixed_strings(type, count, read);
@@ -74,7 +75,8 @@ std::vector<std::string> strings(const Hdf5Handle& type, std::size_t count, cons
 
 }  // namespace
 
-/// Whether HDF5's signature stands where it may: at 0, or behind 512 bytes or their doubles.
+/// True if HDF5's signature stands at one of its permitted places: 0, 512 bytes, or 512 doubled
+/// repeatedly.
 bool is_hdf5(const fs::path& path) {
   constexpr std::string_view kSignature = "\x89HDF\r\n\x1a\n";
   std::error_code ignored;
@@ -103,7 +105,8 @@ Hdf5Source::Hdf5Source(fs::path path, std::string made_by)
                      made_by_ + "'");
   }
   size_ = fs::file_size(path_);
-  // Files of ours are whole whoever writes, and not every file system has the locks of HDF5.
+  // No locking: files of this program are always complete, and not every file system supports
+  // HDF5's locks.
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   if (H5Pset_file_locking(access.get(), false, true) < 0) fail("/");
   file_ = Hdf5Handle(H5Fopen(name.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose);

@@ -19,9 +19,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kBlockValues = 8192;        ///< of an appended dataset are written at once
+constexpr std::size_t kBlockValues = 8192;        ///< written at once to an appended dataset
 constexpr std::size_t kMinCompressed = 512;       ///< values below which compression costs space
-constexpr unsigned kCompressionLevel = 1;         ///< others take longer and save no more
+constexpr unsigned kCompressionLevel = 1;         ///< higher levels take longer and save no more
 constexpr std::size_t kMaxAttributeSize = 64000;  ///< HDF5 has 64 KiB for a whole attribute
 
 std::size_t count_of(const Shape& shape) {
@@ -43,14 +43,14 @@ Shape with_rows(std::size_t rows, const Shape& row) {
 
 std::vector<hsize_t> extents_of(const Shape& shape) { return {shape.begin(), shape.end()}; }
 
-/// A dataset that grows by rows, in compressed blocks. It is made when its first block is full, or
-/// at the end; what is too little to compress is then written as any other dataset.
+/// A dataset that grows by rows, in compressed blocks. It is created when its first block is full,
+/// or at the end; a dataset too small to compress is written like any other.
 struct Appended {
   Shape row;
   std::string unit;
   std::vector<double> waiting = {};
   Hdf5Handle dataset = {};
-  std::size_t rows = 0;  ///< written
+  std::size_t rows = 0;  ///< already written
 
   std::size_t row_size() const { return std::max<std::size_t>(1, count_of(row)); }
   std::size_t block_rows() const { return std::max<std::size_t>(1, kBlockValues / row_size()); }
@@ -61,11 +61,11 @@ struct Appended {
 struct Hdf5Writer::Impl {
   explicit Impl(fs::path path) : bytes(std::move(path)) {}
 
-  AtomicFile bytes;  ///< what HDF5 writes into, so the last to go
+  AtomicFile bytes;  ///< HDF5 writes into it, so it is destroyed last
   Hdf5Handle file;
   std::map<std::string, Appended> appended;
 
-  /// @throws ComputationError unless HDF5 has done it and every byte was written.
+  /// @throws ComputationError unless HDF5 has succeeded and every byte was written.
   void require(bool done, const std::string& object) const {
     bytes.require_written();
     if (!done) {
@@ -74,14 +74,14 @@ struct Hdf5Writer::Impl {
     }
   }
 
-  /// With which missing groups are made.
+  /// Properties with which HDF5 creates missing groups.
   Hdf5Handle link_properties(const std::string& object) const {
     Hdf5Handle properties(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
     require(H5Pset_create_intermediate_group(properties.get(), 1) >= 0, object);
     return properties;
   }
 
-  /// UTF-8 of fixed length in bytes, filled up with zeros.
+  /// Type of UTF-8 strings of fixed length in bytes, padded with zeros.
   Hdf5Handle string_type(std::size_t length, const std::string& object) const {
     Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
     require(H5Tset_size(type.get(), std::max<std::size_t>(1, length)) >= 0 &&
@@ -91,7 +91,8 @@ struct Hdf5Writer::Impl {
     return type;
   }
 
-  /// Without a time stamp. @param block extents of a chunk, or none if the dataset does not grow
+  /// Properties of a dataset without time stamp.
+  /// @param block extents of a chunk, or none if the dataset does not grow
   Hdf5Handle dataset_properties(const Shape& block, const std::string& name) const {
     Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     require(H5Pset_obj_track_times(properties.get(), false) >= 0, name);
@@ -129,7 +130,7 @@ struct Hdf5Writer::Impl {
     require(done && dataset.close(), name);
   }
 
-  /// The object of an attribute; a group that does not exist yet is made.
+  /// Opens the object of an attribute; creates it as a group if it does not exist.
   Hdf5Handle open_object(const std::string& name) {
     Hdf5Handle object(H5Oopen(file.get(), name.c_str(), H5P_DEFAULT), H5Oclose);
     if (object) return object;

@@ -28,7 +28,7 @@ void in_parallel(std::size_t count, unsigned threads,
   std::vector<std::jthread> others;
   for (unsigned k = 1; k < threads && k < count; ++k) others.emplace_back(run);
   run();
-  others.clear();  // joins them
+  others.clear();  // joins the threads
   if (failure) std::rethrow_exception(failure);
 }
 

@@ -6,8 +6,8 @@
 
 namespace flexneck {
 
-/// Calls work(0) … work(count - 1), each once, by as many threads at most, of which the caller is
-/// one. @throws what the first of them throws, when all have ended; the rest is then left out.
+/// Calls work(0) … work(count - 1), each once, on at most `threads` threads, the caller's included.
+/// @throws what the first failing call throws, when all threads have ended; the rest is left out.
 void in_parallel(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& work);
 
 }  // namespace flexneck

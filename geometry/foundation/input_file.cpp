@@ -14,7 +14,7 @@ namespace flexneck {
 
 namespace {
 
-/// What the user can mend; anything else is the system's.
+/// True for failures that the user can mend; others are the system's.
 bool is_users_fault(int reason) {
   constexpr std::array<int, 6> kUsers = {ENOENT, ENOTDIR, EACCES, ELOOP, ENAMETOOLONG, ENXIO};
   return std::find(kUsers.begin(), kUsers.end(), reason) != kUsers.end();
@@ -24,8 +24,8 @@ bool is_users_fault(int reason) {
 
 FileDescriptor open_to_read(const std::filesystem::path& path) {
   note_read(path);
-  size_of_file(path);  // refuses what is no file
-  // Without O_NONBLOCK a pipe that has taken its place would have to be opened by a writer first.
+  size_of_file(path);  // refuses anything but a regular file
+  // Without O_NONBLOCK, opening a pipe that has replaced the file would wait for a writer.
   FileDescriptor file(
       uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); }));
   if (!file) {

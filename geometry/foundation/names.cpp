@@ -34,7 +34,7 @@ std::string nearest_name(const std::vector<std::string>& candidates, const std::
       candidates.begin(), candidates.end(), [&](const std::string& left, const std::string& right) {
         return edit_distance(left, name) < edit_distance(right, name);
       });
-  // More than a third of the letters wrong is another word, not a slip.
+  // A name with more than a third of its letters wrong is another word, not a misspelling.
   if (best == candidates.end() || 3 * edit_distance(*best, name) > name.size() + 2) return {};
   return *best;
 }

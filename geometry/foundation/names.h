@@ -10,16 +10,16 @@ namespace flexneck {
 /// The candidate that a misspelt name most likely means; empty if none is near.
 std::string nearest_name(const std::vector<std::string>& candidates, const std::string& name);
 
-/// " (did you mean 'near'?)" or an empty text, for the end of a message.
+/// Text " (did you mean 'near'?)" for the end of a message; empty if no candidate is near.
 std::string did_you_mean(const std::vector<std::string>& candidates, const std::string& name);
 
-/// Position of a name in a list. `kind` is what the names are of, e.g. "marker".
+/// Position of a name in a list. `kind` says what is named, e.g. "marker".
 /// @throws InputError if it is not there; the message gives the nearest name and lists all.
 std::size_t find_name(const std::vector<std::string>& names, const std::string& name,
                       const std::string& kind);
 
-/// Names label groups of our files: refuses empty ones, doubles, and ones with '/' or what is
-/// unprintable (printable.h).
+/// Checks names that label groups of HDF5 files: refuses empty and repeated names and those with
+/// '/' or unprintable characters (printable.h).
 /// @throws InputError
 void check_names(const std::vector<std::string>& names, const std::string& kind);
 

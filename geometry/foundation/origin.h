@@ -6,11 +6,11 @@
 
 namespace flexneck {
 
-/// Where an input comes from.
+/// Origin of an input.
 ///  - published:  stated by a source that the note names
 ///  - inferred:   concluded from what is published
 ///  - calibrated: fitted to published results
-///  - synthetic:  made up for the purpose; also what an unlabelled input counts as
+///  - synthetic:  made up for the purpose; the default of an unlabelled input
 enum class Origin { published, inferred, calibrated, synthetic };
 
 inline constexpr std::array<std::string_view, 4> kOriginNames = {"published", "inferred",

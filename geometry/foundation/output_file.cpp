@@ -55,7 +55,8 @@ std::string rounded_texts(std::span<const double> numbers, int digits) {
 }
 
 std::string fixed_text(double number, int decimals) {
-  constexpr int kOthers = 3;  // the sign, the point, the digit that max_exponent10 does not count
+  constexpr int kOthers = 3;  // sign, decimal point and the digit that max_exponent10 does not
+                              // count
   std::string text(
       static_cast<std::size_t>(std::numeric_limits<double>::max_exponent10 + kOthers + decimals),
       '\0');

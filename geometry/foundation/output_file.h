@@ -11,7 +11,7 @@
 
 namespace flexneck {
 
-/// A file that is written from its beginning to its end and takes its place by commit(); without
+/// A file that is written from its beginning to its end and takes its place on commit(); without
 /// commit() nothing is left.
 class OutputFile {
  public:
@@ -36,19 +36,20 @@ class OutputFile {
   std::uint64_t written_ = 0;
 };
 
-/// A whole file at once. @throws as OutputFile does.
+/// Writes a whole file at once.
+/// @throws as OutputFile does.
 void write_text(const std::filesystem::path& path, std::string_view text,
                 Durability durability = Durability::content);
 
-// Texts of numbers. None depends on the locale, which a program around the library may choose.
+// Texts of numbers. They do not depend on the locale, which the calling program may choose.
 
 /// The shortest text that reads back as the same number.
 std::string exact_text(double number);
-/// The most exact text of at most `width` characters.
+/// The most accurate text of at most `width` characters.
 std::string text_within(double number, int width);
-/// For messages, as "%.6g" of C gives it where the decimal sign is a point.
+/// Rounded text for messages, as C's "%.6g" gives it where the decimal sign is a point.
 std::string rounded_text(double number, int digits = 6);
-/// Likewise "%.2f".
+/// Text with a fixed number of decimals, as C's "%.2f" gives it.
 std::string fixed_text(double number, int decimals);
 /// Several rounded texts: "1, 2.5, 3".
 std::string rounded_texts(std::span<const double> numbers, int digits = 6);

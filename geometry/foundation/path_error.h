@@ -6,13 +6,13 @@
 
 namespace flexneck {
 
-// Failures of the file system as the standard library throws them, for those who tell the user.
+// Handling of the file system errors of the standard library, for messages to the user.
 
-/// Tells whether the path is at fault, so that it is unusable input: too long, not there, not
+/// Returns whether the path is the cause, so that it is unusable input: too long, missing, not
 /// permitted.
 bool is_of_path(const std::filesystem::filesystem_error& error);
 
-/// "<path>: File name too long; a name has at most 255 bytes, a path 4095"
+/// Message such as "<path>: File name too long; a name has at most 255 bytes, a path 4095".
 std::string text_of(const std::filesystem::filesystem_error& error);
 
 }  // namespace flexneck

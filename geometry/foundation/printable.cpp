@@ -14,10 +14,10 @@ constexpr std::uint32_t kNotUtf8 = 0xFFFFFFFF;
 
 struct Character {
   std::uint32_t code = kNotUtf8;
-  std::size_t size = 1;  ///< bytes
+  std::size_t size = 1;  ///< in bytes
 };
 
-/// The character that a text begins with; one byte that is not UTF-8 where it begins with none.
+/// The first character of a text; one byte that is not UTF-8 if the text begins with no valid one.
 Character first_of(std::string_view text) {
   const auto byte = [&](std::size_t k) { return static_cast<std::uint8_t>(text[k]); };
   const std::uint32_t lead = byte(0);

@@ -6,7 +6,8 @@
 
 namespace flexneck {
 
-/// How a stage tells what it does: one line without a line break per call. May be empty.
+/// Callback by which a stage reports its progress: one line without a line break per call. May be
+/// empty.
 using Progress = std::function<void(const std::string&)>;
 
 }  // namespace flexneck

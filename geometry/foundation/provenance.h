@@ -24,26 +24,27 @@ struct Parameter {
 
 /// A file that a result was computed from.
 struct InputFile {
-  std::string name;  ///< without its folder, so that results do not depend on where they were made
+  std::string name;  ///< without its folder, so that results do not depend on where they were
+                     ///< computed
   std::string hash;  ///< 128-bit XXH3 of the contents, 32 hexadecimal digits
 
   bool operator==(const InputFile&) const = default;
 };
 
-/// The files whose content is known. Several may have the same name, in folders of their own.
+/// The files whose content is known. Several may have the same name, in different folders.
 std::vector<InputFile> input_files(const std::vector<FileRead>& reads);
 
-/// How a result came about; stored in the group /provenance of every file of ours.
+/// Origin of a result; stored in the group /provenance of every HDF5 file of this program.
 struct Provenance {
   std::string program;   ///< e.g. "flexneck 0.1.0"
-  std::string git_hash;  ///< of the sources the program was built from, or "unknown"
+  std::string git_hash;  ///< hash of the sources of the build, or "unknown"
   std::vector<InputFile> inputs;
   std::vector<Parameter> parameters;
   std::map<std::string, std::string> libraries;  ///< name to version
 };
 
 void write_provenance(Hdf5Writer& file, const Provenance& provenance);
-/// Empty if the file has none: other programs write none.
+/// Reads the provenance; empty if the file has none, as those of other programs.
 Provenance read_provenance(const Hdf5Reader& file);
 
 }  // namespace flexneck

@@ -6,9 +6,9 @@
 
 namespace flexneck {
 
-/// Bytes of a file that is to be read. A folder has no contents, a pipe waits for them, a device
-/// has them without end.
-/// @throws InputError if there is no such file, or if it is none of the regular kind.
+/// Size in bytes of a file to be read. Folders have no content, pipes block until it comes, devices
+/// have it without end; all three are refused.
+/// @throws InputError if there is no such file, or if it is not a regular file.
 std::uintmax_t size_of_file(const std::filesystem::path& file);
 
 }  // namespace flexneck

@@ -10,10 +10,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// In this object; any address in it will do.
+/// An address in this object; any other would do.
 const char kHere = 0;
 
-/// As the loader knows the object; empty of the program.
+/// The loader's name of this object; empty for the program itself.
 std::string loaded_name() {
   Dl_info info{};
   link_map* map = nullptr;

@@ -25,21 +25,23 @@ namespace {
 
 using Action = SignalCleanup::Action;
 
-/// A handler may neither allocate nor lock, so there is place for some.
+/// One registered cleanup. A handler may neither allocate nor lock, so their number is fixed.
 struct Entry {
   std::atomic<bool> is_taken = false;
   std::atomic<bool> is_ready = false;
-  pid_t owner = -1;  ///< a forked process has no part in it
+  pid_t owner = -1;  ///< a forked child does not clean up for its parent
   Action action = Action::remove_file;
   pid_t process = -1;
   std::array<char, PATH_MAX> path{};
 };
 std::array<Entry, 16> entries;
 
-std::atomic<int> holds = 0;           ///< of SignalHold
-std::atomic<int> waiting_signal = 0;  ///< none
+std::atomic<int> holds = 0;           ///< number of SignalHold objects
+std::atomic<int> waiting_signal = 0;  ///< 0 if none waits
 
-/// @param fill  sets what is to be done. @return the number of the entry, -1 if none is free
+/// Registers a cleanup.
+/// @param fill  sets the action
+/// @return the number of the entry, -1 if none is free
 template <typename Fill>
 int add(const Fill& fill) {
   for (std::size_t k = 0; k < entries.size(); ++k) {
@@ -52,11 +54,11 @@ int add(const Fill& fill) {
   return -1;
 }
 
-// From here on only what a handler of signals may call.
+// From here on only functions that a signal handler may call are used.
 
 void remove_tree(int folder, const char* name);
 
-/// @return whether there was anything
+/// @return true if the folder had entries
 bool remove_entries(int folder) {
   constexpr std::size_t kNameStart = offsetof(dirent64, d_name);
   alignas(dirent64) std::array<char, 4096> block{};
@@ -76,13 +78,13 @@ bool remove_entries(int folder) {
   }
 }
 
-/// No link is followed.
+/// Removes a file, or a folder with its contents. No link is followed.
 void remove_tree(int folder, const char* name) {
   if (::unlinkat(folder, name, 0) == 0 || errno != EISDIR) return;
-  if (::unlinkat(folder, name, AT_REMOVEDIR) == 0) return;  // also where nothing can be opened
+  if (::unlinkat(folder, name, AT_REMOVEDIR) == 0) return;  // needs no free descriptor
   const int opened = ::openat(folder, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (opened < 0) return;
-  // Entries may be passed over while others go.
+  // Reading a folder may skip entries while others are removed.
   for (int passes = 8; passes > 0 && remove_entries(opened); --passes) ::lseek(opened, 0, SEEK_SET);
   ::close(opened);
   ::unlinkat(folder, name, AT_REMOVEDIR);
@@ -109,13 +111,13 @@ void carry_out(const Entry& entry) {
 extern "C" void end_by(int signal) {
   if (holds > 0 && (signal == SIGINT || signal == SIGTERM || signal == SIGHUP)) {
     waiting_signal = signal;
-    // Another thread may have let go meanwhile: whichever of both takes the signal back ends it
-    // all.
+    // Another thread may have ended the last hold meanwhile: of the two, the one that takes the
+    // signal back ends the process.
     if (holds > 0 || waiting_signal.exchange(0) == 0) return;
   }
   clean_up_now();
   std::signal(signal, SIG_DFL);
-  std::raise(signal);  // taken when the handler returns
+  std::raise(signal);  // delivered when the handler returns
 }
 
 }  // namespace
@@ -136,7 +138,7 @@ void clean_up_on_signals() {
   struct sigaction action {};
   action.sa_handler = end_by;
   sigfillset(&action.sa_mask);
-  // The first three ask for an end, the others say that a library has crashed.
+  // The first three ask for an end, the others report a crash.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) {
     struct sigaction before {};
     if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_DFL)

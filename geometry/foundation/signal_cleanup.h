@@ -6,17 +6,18 @@
 
 namespace flexneck {
 
-/// Has signals clean up before they end the process, save those that something else handles or
-/// ignores. For a program: a library leaves signals to the program.
+/// Makes signals clean up before they end the process, except those that are handled otherwise or
+/// ignored. For programs only: a library leaves signals to its program.
 void clean_up_on_signals();
-/// For a program that ends otherwise than by leaving main.
+/// Runs the registered cleanups, in a program that ends otherwise than by leaving main.
 void clean_up_now() noexcept;
 
-/// A folder with all in it, as far as that can be done; takes no memory.
+/// Removes a folder with all its contents, as far as possible, without allocating memory.
 void remove_folder(const std::filesystem::path& folder) noexcept;
 
-/// While there is one, signals that ask for an end wait: between making a file, a folder or a child
-/// process and noting it as a SignalCleanup. The last one that goes lets them through.
+/// While an object exists, signals that ask for an end wait: from the creation of a file, a folder
+/// or a child process until it is registered as a SignalCleanup. The end of the last object
+/// delivers them.
 class SignalHold {
  public:
   SignalHold() noexcept;
@@ -25,21 +26,22 @@ class SignalHold {
   SignalHold& operator=(const SignalHold&) = delete;
 };
 
-/// What would be left behind if a signal ended the process now. It is up to its owner otherwise.
+/// Cleans up something that would be left behind if a signal ended the process now. Otherwise its
+/// owner removes it.
 class SignalCleanup {
  public:
-  /// In the order in which they are done.
+  /// Actions, in the order in which they are performed.
   enum class Action : unsigned char {
     end_process,
-    remove_folder,  ///< with all in it
+    remove_folder,  ///< with all its contents
     remove_file,
     remove_empty_folder,
   };
 
   SignalCleanup() = default;
-  /// Not for Action::end_process.
+  /// Registers the removal of a path. `action` is not Action::end_process.
   SignalCleanup(Action action, const std::filesystem::path& path);
-  /// Of a child process.
+  /// Registers the end of a child process.
   explicit SignalCleanup(pid_t process);
   ~SignalCleanup() { reset(); }
   SignalCleanup(SignalCleanup&& other) noexcept;
@@ -50,7 +52,7 @@ class SignalCleanup {
   void reset() noexcept;
 
  private:
-  int entry_ = -1;  ///< none: nothing to do, or no place left to note it
+  int entry_ = -1;  ///< -1: no action, or no entry left to register it
 };
 
 }  // namespace flexneck

@@ -7,16 +7,16 @@
 
 namespace flexneck {
 
-/// How long the steps of a computation took, one after the other, by the clock on the wall, and the
-/// most memory that the process had had at their ends. It goes to the user and never into a result:
-/// results have the same bytes each time.
+/// Wall-clock times of the consecutive steps of a computation, and the process's peak memory at
+/// their ends. They are shown to the user and never stored in a result: results have the same bytes
+/// each time.
 class StepTimes {
  public:
-  /// Begins a step and ends the one before. A step that is begun again goes on.
+  /// Begins a step and ends the one before. A step that begins again is continued.
   void start(const std::string& step);
   void stop();
 
-  /// "read 0.05 s, 0.10 GB; assemble 0.41 s, 0.12 GB; solve 1.20 s, 0.27 GB; 1.66 s together"
+  /// Text "read 0.05 s, 0.10 GB; assemble 0.41 s, 0.12 GB; solve 1.20 s, 0.27 GB; 1.66 s together".
   std::string summary() const;
 
  private:
@@ -29,7 +29,7 @@ class StepTimes {
   };
 
   std::vector<Step> steps_;  ///< in order
-  std::string running_;      ///< empty: none
+  std::string running_;      ///< empty if none runs
   Clock::time_point since_;
 };
 

@@ -8,12 +8,12 @@
 
 namespace flexneck {
 
-/// A fresh folder of ours alone. It goes with all it holds at the end of the scope, and if a signal
-/// ends the process (signal_cleanup.h).
+/// A new folder for this object alone. It is removed with all its contents at the end of the scope,
+/// and if a signal ends the process (signal_cleanup.h).
 class TemporaryFolder {
  public:
-  /// @throws InputError if the folder for temporary files that TMPDIR names is none;
-  /// ComputationError if it takes no other.
+  /// @throws InputError if TMPDIR names no folder for temporary files; ComputationError if no new
+  /// folder can be created in it.
   TemporaryFolder();
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;

@@ -40,7 +40,7 @@ void require_printable(const std::filesystem::path& path, const std::string& tex
                    printable(text.substr(place, 1)));
 }
 
-/// UTF-8 of the bytes 0x80 to 0x9F of Windows-1252; the five that it leaves open stay as they are.
+/// UTF-8 of the bytes 0x80 to 0x9F of Windows-1252; its five undefined bytes are kept.
 constexpr std::array<std::string_view, 32> kWindows1252 = {
     "\u20AC", "\x81",   "\u201A", "\u0192", "\u201E", "\u2026", "\u2020", "\u2021",
     "\u02C6", "\u2030", "\u0160", "\u2039", "\u0152", "\x8D",   "\u017D", "\x8F",

@@ -33,7 +33,7 @@ const ut_system& unit_system() {
     if (!fresh)
       throw ComputationError(std::string("the unit database of UDUNITS-2 cannot be read: ") +
                              UDUNITS2_DATABASE);
-    // The database knows these units only by longer names.
+    // The database has these units under longer names only.
     const Unit gravity(ut_parse(fresh.get(), "standard_free_fall", UT_ASCII), ut_free);
     const Unit degree(ut_parse(fresh.get(), "arc_degree", UT_ASCII), ut_free);
     if (ut_map_symbol_to_unit("gn", UT_ASCII, gravity.get()) != UT_SUCCESS ||
@@ -45,11 +45,11 @@ const ut_system& unit_system() {
   return *system;
 }
 
-/// Names with whole exponents, joined by '*', '.', '/' or a space. UDUNITS-2 takes multiples
-/// besides ("kg 2", "kg^2.5" and "m/2" are 2 kg, 5 kg^2 and 0.5 m), origins and logarithms: all of
-/// them would change the number that stands before the unit without a word.
+/// True for names with whole exponents, joined by '*', '.', '/' or a space. UDUNITS-2 accepts
+/// multiples besides ("kg 2", "kg^2.5" and "m/2" are 2 kg, 5 kg^2 and 0.5 m), origins and
+/// logarithms: all of them would silently change the number that stands before the unit.
 bool is_plain_unit(const std::string& text) {
-  constexpr std::size_t kMaxCharacters = 80;  // std::regex takes stack for each
+  constexpr std::size_t kMaxCharacters = 80;  // std::regex uses stack for each
   static const std::regex kPattern = [] {
     const std::string power = "((\\^|\\*\\*)?[+-]?[0-9]+)?";
     const std::string factor = "(\\( *)*((\u00b5)?[A-Za-z_]+|%)" + power + "( *\\)" + power + ")*";
@@ -83,15 +83,15 @@ int radians(const ut_unit& unit) {
   return exponent.empty() ? 1 : std::stoi(exponent);
 }
 
-/// "g" beside an acceleration: there it cannot be the gram, and test reports mean gravity.
+/// True for "g" beside an acceleration: there it cannot be the gram, and test reports mean gravity.
 bool is_gravity(std::string_view unit, std::string_view beside) {
   if (unit != "g") return false;
   const Unit acceleration = parse_unit("gn");
   return ut_are_convertible(parse_unit(beside).get(), acceleration.get()) != 0;
 }
 
-/// The locale of C for this thread while it lives: UDUNITS-2 reads and writes its numbers by that
-/// of the process, whose decimal sign may be a comma.
+/// Sets the locale of C for this thread during its lifetime: UDUNITS-2 reads and writes numbers in
+/// the locale of the process, whose decimal sign may be a comma.
 class PlainLocale {
  public:
   PlainLocale() : locale_(::newlocale(LC_ALL_MASK, "C", nullptr)) {
@@ -109,7 +109,7 @@ class PlainLocale {
   locale_t locale_, before_ = nullptr;
 };
 
-/// Factor between two units. An offset (as in degrees Celsius) has no place here.
+/// Factor between two units. Units with an offset (such as degrees Celsius) are refused.
 double computed_factor(std::string_view from, std::string_view to) {
   const PlainLocale plain;
   const Unit source = parse_unit(is_gravity(from, to) ? "gn" : from);
@@ -125,8 +125,8 @@ double computed_factor(std::string_view from, std::string_view to) {
   return cv_convert_double(converter.get(), 1.0);
 }
 
-/// Factors that have been asked for: a unit takes far longer to parse than a number, and a file has
-/// few of them. UDUNITS-2 keeps a state of its own, so it serves one thread at a time.
+/// Cache of factors: a unit takes far longer to parse than a number, and a file has few of them.
+/// UDUNITS-2 keeps internal state, so one thread at a time may use it.
 class FactorTable {
  public:
   double factor(std::string_view from, std::string_view to) {
@@ -135,7 +135,7 @@ class FactorTable {
     const auto known = factors_.find(pair);
     if (known != factors_.end()) return known->second;
     const double found = computed_factor(from, to);
-    constexpr std::size_t kMax = 1000;  // of files that make ever new ones
+    constexpr std::size_t kMax = 1000;  // bounds the cache for files with ever new units
     if (factors_.size() < kMax) factors_.emplace(pair, found);
     return found;
   }

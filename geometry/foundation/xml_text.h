@@ -6,7 +6,7 @@
 
 namespace flexneck {
 
-/// A text as it stands in XML and HTML, between tags and in attributes: &, <, >, " and ' escaped.
+/// A text escaped for XML and HTML, between tags and in attributes: &, <, >, " and '.
 std::string xml_text(std::string_view text);
 
 }  // namespace flexneck

@@ -12,12 +12,12 @@ namespace {
 
 constexpr double kWidestColumns = 44;
 constexpr double kMaxRows = 50;
-constexpr double kCharacterHeight = 2;  ///< in widths
+constexpr double kCharacterHeight = 2;  ///< in character widths
 
 struct Slice {
   const NeckLayer* layer;
-  double x_m, z_m;  ///< middle of the character
-  double row_m;     ///< its height
+  double x_m, z_m;  ///< centre of the character
+  double row_m;     ///< height of a row of characters
 };
 
 bool is_slit(const NeckSlits& slits, const NeckParameters& neck, const Slice& at) {
@@ -25,7 +25,7 @@ bool is_slit(const NeckSlits& slits, const NeckParameters& neck, const Slice& at
   const bool is_cut =
       std::find(slits.parts.begin(), slits.parts.end(), at.layer->part) != slits.parts.end();
   const double middle_m = at.layer->bottom_m + at.layer->thickness_m / 2;
-  // The row that holds the mid-height, its upper end included.
+  // The slit is drawn in the row that contains the mid-height, its upper end included.
   const double above_m = at.z_m + at.row_m / 2 - middle_m;
   const double rim_m = at.layer->offset_m + at.layer->diameter_m / 2;
   const double edge_m = rim_m - slits.depth.value_or(0) * (rim_m - neck.hole_diameter / 2);

@@ -7,9 +7,9 @@
 
 namespace flexneck::geometry {
 
-/// The section through the plane of symmetry in characters: front to the right, to scale as far as
-/// characters twice as high as wide allow, at most 80 columns wide. Plates are '#', rubber is ':',
-/// a slit '-' (open) or '=' (tied). Each layer has its name and thickness beside it.
+/// Draws the section through the plane of symmetry in characters: front to the right, to scale as
+/// far as characters twice as high as wide allow, at most 80 columns wide. Plates are '#', rubber
+/// is ':', a slit '-' (open) or '=' (tied). Each layer has its name and thickness beside it.
 /// @pre check(neck) passes.
 std::string drawn_section(const NeckParameters& neck, const NeckSlits& slits);
 

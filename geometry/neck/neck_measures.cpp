@@ -24,7 +24,7 @@ struct Moments {
   }
 };
 
-/// A solid upright cylinder whose axis passes through (offset, 0).
+/// Moments of a solid upright cylinder whose axis passes through (offset, 0).
 Moments cylinder(double density, double diameter, double offset, double bottom, double height) {
   Moments c;
   c.volume = std::numbers::pi / 4 * diameter * diameter * height;

@@ -23,12 +23,14 @@ struct NeckMeasures {
   double volume_m3 = 0;
   double mass_kg = 0;
   std::array<double, 3> centre_m{};  ///< centre of gravity
-  /// About the centre of gravity, along x, y, z: int (y^2 + z^2) dm and so on.
+  /// Moments of inertia about the centre of gravity, along x, y, z: int (y^2 + z^2) dm and so on.
   std::array<double, 3> inertia_kg_m2{};
-  double product_xz_kg_m2 = 0;  ///< int x z dm there; the others vanish
+  double product_xz_kg_m2 = 0;  ///< int x z dm about the centre of gravity; the other products
+                                ///< vanish
 };
 
-/// @param density_kg_m3 by part
+/// Computes the measures.
+/// @param density_kg_m3 density of each part
 /// @throws InputError if a part has none.
 NeckMeasures measure(const NeckParameters& neck,
                      const std::map<std::string, double>& density_kg_m3);

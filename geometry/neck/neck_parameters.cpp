@@ -64,7 +64,7 @@ void check_height(const NeckParameters& neck) {
       " must be less than length = " + in_inches(neck.length));
 }
 
-/// The hole lies inside the shifted circle, and that inside the plate.
+/// Checks that the hole lies inside the shifted circle, and that circle inside the plate.
 void check_rubber(const NeckParameters& neck, const std::string& section, double diameter,
                   double offset) {
   const double inner_m = neck.hole_diameter / 2 + offset;
@@ -130,7 +130,7 @@ std::map<std::string, double> script_constants(const NeckParameters& neck,
   };
   if (divisions.refine > 0) constants["refine"] = divisions.refine + 1;
   for (const NeckDimension& dimension : kDimensions) {
-    // The bolts are taken from the mesh, not drawn.
+    // Bolts are selected in the mesh; the script has no constants for them.
     if (std::string_view(dimension.name).starts_with("bolt")) continue;
     constants[dimension.name] = neck.*dimension.member;
   }

@@ -16,23 +16,23 @@ namespace flexneck::geometry {
 struct NeckParameters {
   double length = 0;
   double base_plate_thickness = 0;
-  double plate_thickness = 0;  ///< of each of the three intermediate plates
+  double plate_thickness = 0;  ///< thickness of each of the three intermediate plates
   double top_plate_thickness = 0;
   double plate_diameter = 0;
   double hole_diameter = 0;
-  double centre_rubber_diameter = 0;  ///< of rubber 2 and 3
+  double centre_rubber_diameter = 0;  ///< diameter of rubber 2 and 3
   double centre_rubber_offset = 0;
-  double bottom_rubber_diameter = 0;  ///< of rubber 1
+  double bottom_rubber_diameter = 0;  ///< diameter of rubber 1
   double bottom_rubber_offset = 0;
-  double top_rubber_diameter = 0;  ///< of rubber 4
+  double top_rubber_diameter = 0;  ///< diameter of rubber 4
   double top_rubber_offset = 0;
   double bolt_circle_radius = 0;
   double bolt_patch_radius = 0;  ///< base-face nodes this close to a bolt's centre are fixed
 };
 
-/// What is known of one of the dimensions.
+/// Description of one dimension.
 struct NeckDimension {
-  const char* name;  ///< of the member, of the script's constant and of the key in a study
+  const char* name;  ///< name of the member, of the script's constant and of the key in a study
   double NeckParameters::*member;
   bool may_be_zero;
   const char* meaning;
@@ -42,7 +42,7 @@ std::span<const NeckDimension> neck_dimensions();
 
 /// Mesh divisions of the neck's blocks.
 struct NeckDivisions {
-  int quadrant = 4;       ///< round a quarter of the circumference
+  int quadrant = 4;       ///< along a quarter of the circumference
   int inner_ring = 3;     ///< from the hole to the rubber's rim
   int outer_ring = 1;     ///< from the rubber's rim to the plate's
   int rubber_layers = 3;  ///< through one rubber section
@@ -51,16 +51,16 @@ struct NeckDivisions {
   double ring_grading =
       1.15;  ///< ratio of neighbouring elements away from the rubber's rim, 1 = even
   double rubber_grading = 1.5;  ///< ratio of neighbouring layers away from the bonds, 1 = even
-  /// Elements are cut in refine + 1 in each direction; the cuts keep the boundaries of the coarser
-  /// elements and spread their ratios evenly, so that meshes with 0, 1, 3, 7 … nest.
+  /// Elements are divided into refine + 1 in each direction; the divisions keep the boundaries of
+  /// the coarser elements and spread their ratios evenly, so that meshes with 0, 1, 3, 7 … nest.
   int refine = 0;
 };
 
-/// "default", or "paper": as many elements as the paper tells of (2386 elements and 3427 nodes;
-/// these give 2400 and, with 8-node hexahedra, 3408), evenly divided.
+/// Divisions of a preset: "default", or "paper", evenly divided with as many elements as the paper
+/// reports (2386 elements and 3427 nodes; these give 2400 and, with 8-node hexahedra, 3408).
 /// @throws InputError for another name.
 NeckDivisions divisions_preset(const std::string& name);
-/// Hexahedra that the divisions give; a whole number, that no integer need hold.
+/// Number of hexahedra that the divisions give; a whole number that may exceed any integer type.
 double hexahedra(const NeckDivisions& divisions);
 
 /// Height of one rubber section: (length - plates) / 4.
@@ -75,17 +75,18 @@ struct NeckLayer {
   double bottom_m = 0;  ///< height of its lower face
   double thickness_m = 0;
   double diameter_m = 0;
-  double offset_m = 0;  ///< of its axis towards the front
+  double offset_m = 0;  ///< offset of its axis towards the front
   bool is_rubber = false;
 };
 /// The nine layers from below.
 std::vector<NeckLayer> layers_of(const NeckParameters& neck);
 
-/// Refuses impossible dimensions. @throws InputError with the inequality that fails and its values.
+/// Refuses impossible dimensions.
+/// @throws InputError with the inequality that fails and its values.
 void check(const NeckParameters& neck);
 void check(const NeckDivisions& divisions);
 
-/// Values of the constants that geometry/neck.geo declares for them, by name. Lengths in m.
+/// Values by name of the constants that geometry/neck.geo declares. Lengths in m.
 std::map<std::string, double> script_constants(const NeckParameters& neck,
                                                const NeckDivisions& divisions);
 

@@ -16,7 +16,7 @@ namespace {
 const Colour kBackground(1, 1, 1);
 const Colour kEdges(0.13F, 0.15F, 0.18F);
 const Colour kGhost(0.68F, 0.70F, 0.74F);
-constexpr double kMargin = 0.05;  ///< of the picture, on each side
+constexpr double kMargin = 0.05;  ///< fraction of the picture, on each side
 
 /// Turns points of the body into points of the picture.
 class Projection {
@@ -47,7 +47,7 @@ class Projection {
   Eigen::Vector3d shift_;
 };
 
-/// Light from over the viewer's left shoulder, on either side of a face.
+/// Brightness of a face, seen from either side, lit from over the viewer's left shoulder.
 double brightness(const Eigen::Vector3d& normal, const Eigen::Matrix3d& axes) {
   const Eigen::Vector3d light = (axes.transpose() * Eigen::Vector3d(-0.35, -0.5, 0.8)).normalized();
   return 0.38 + 0.62 * std::abs(normal.dot(light));
@@ -91,7 +91,7 @@ Raster draw_body(const Mesh& mesh, const Surface& surface, const BodyPicture& wh
   const Eigen::MatrixX3d nodes = positions_of(mesh).transpose();
   const Projection project(nodes, view, width, height, room_m);
   if (what.undeformed_outline) {
-    // Far behind everything: where the body covers its former place, the body is seen.
+    // The outline lies far behind everything, so that the body hides it.
     Eigen::MatrixX3d outline = project(surface.value * nodes);
     outline.col(2).setConstant(-1e9);
     draw_chains(surface.outlines, outline, kGhost, 1, 0, raster);

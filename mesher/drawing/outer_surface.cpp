@@ -17,8 +17,8 @@
 namespace flexneck::mesher {
 namespace {
 
-/// A face divided evenly: points of its reference element, triangles between them, and the chain of
-/// points along each of its edges.
+/// An evenly divided face: points of its reference element, triangles between them, and the chain
+/// of points along each of its edges.
 struct Division {
   Eigen::Matrix3Xd points;
   std::vector<std::array<std::int32_t, 3>> triangles;
@@ -65,7 +65,7 @@ Division divide_triangle(int n) {
   return division;
 }
 
-/// A face's kind with the tables at the points of its division.
+/// A face kind with its shape functions tabulated at the points of its division.
 struct DividedKind {
   Division division;
   ShapeTable table;
@@ -93,7 +93,7 @@ std::vector<std::int32_t> shifted(std::vector<std::int32_t> chain, std::int32_t 
   return chain;
 }
 
-/// What meets at an edge between two corner nodes: the first face seen there.
+/// The first face seen at an edge between two corner nodes.
 struct EdgeOwner {
   std::size_t block;
   Eigen::Vector3d normal;
@@ -113,7 +113,7 @@ Eigen::Vector3d centre_normal(const Mesh& mesh, const Facet& side) {
 /// Adds the edges of a face that lie between parts, or between faces that meet at an angle.
 class OutlineFinder {
  public:
-  /// Faces whose normals differ by more than 40 degrees meet at an edge that one sees.
+  /// Faces whose normals differ by more than 40 degrees meet at a visible edge.
   static constexpr double kSharpCosine = 0.77;
 
   void add(const Mesh& mesh, const Facet& side,
@@ -135,7 +135,7 @@ class OutlineFinder {
   std::map<std::pair<std::int32_t, std::int32_t>, EdgeOwner> owners_;
 };
 
-/// Finest division of a side, up to `most` triangles in all.
+/// Finest division of a facet that gives at most `most` triangles in all.
 int division_for(std::size_t sides, std::size_t most) {
   int n = 6;
   while (n > 1 && sides * 2 * static_cast<std::size_t>(n) * static_cast<std::size_t>(n) > most) --n;

@@ -11,18 +11,19 @@
 
 namespace flexneck::mesher {
 
-/// The boundary as triangles, fine enough to show curved faces. Fields on the nodes, (n) rows, come
-/// to the vertices by the shape functions: `value * field`.
+/// The boundary as triangles, fine enough to show curved faces. The shape functions interpolate
+/// fields at the nodes, (n) rows, to the vertices: `value * field`.
 struct Surface {
   Eigen::SparseMatrix<double, Eigen::RowMajor> value;                ///< (vertices, nodes)
   Eigen::SparseMatrix<double, Eigen::RowMajor> along_xi, along_eta;  ///< derivatives on the face
-  std::vector<std::array<std::int32_t, 3>> triangles;                ///< vertices
+  std::vector<std::array<std::int32_t, 3>> triangles;                ///< indices of their vertices
   std::vector<std::size_t> block_of_vertex;
-  std::vector<std::vector<std::int32_t>> edges;     ///< of the elements, as chains of vertices
-  std::vector<std::vector<std::int32_t>> outlines;  ///< those between parts and at sharp bends
+  std::vector<std::vector<std::int32_t>> edges;     ///< element edges as chains of vertices
+  std::vector<std::vector<std::int32_t>> outlines;  ///< edges between parts and at sharp bends
 };
 
-/// @param max_triangles bounds the subdivision of the sides
+/// Triangulates the boundary of a mesh.
+/// @param max_triangles bounds the subdivision of the facets
 Surface surface_of(const Mesh& mesh, std::size_t max_triangles = 200'000);
 
 }  // namespace flexneck::mesher

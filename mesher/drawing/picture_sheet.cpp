@@ -51,16 +51,16 @@ double write(cairo_t* canvas, const std::string& text, double x, double baseline
 
 void paint(cairo_t* canvas, const Raster& picture, double x, double y) {
   std::vector<std::uint32_t> pixels = picture.pixels();
-  // A row of 32-bit pixels has no padding, so the picture's own rows serve.
+  // A row of 32-bit pixels has no padding, so Cairo can use the picture's own rows.
   const CairoSurface image(cairo_image_surface_create_for_data(
       reinterpret_cast<unsigned char*>(pixels.data()), CAIRO_FORMAT_RGB24, picture.width(),
       picture.height(), 4 * picture.width()));
   cairo_set_source_surface(canvas, image.get(), x, y);
   cairo_paint(canvas);
-  cairo_set_source_rgb(canvas, 1, 1, 1);  // lets go of the image before it ends
+  cairo_set_source_rgb(canvas, 1, 1, 1);  // releases the image before it is destroyed
 }
 
-/// Draws from the right edge towards the left.
+/// Draws the colour scale from the right edge towards the left.
 void draw_scale(cairo_t* canvas, const ScaleBar& scale, double right, double baseline) {
   constexpr int kWidth = 160;
   double x = right - write(canvas, scale.high, right, baseline, kTextSize, Anchor::right) - 6;
@@ -105,7 +105,7 @@ void draw_sheet(cairo_t* canvas, const PictureSheet& sheet, int width, int heigh
   draw_legend(canvas, sheet.legend, width - kPadding, baseline);
 }
 
-/// Cairo is C: nothing is thrown across it.
+/// Callback of Cairo. Cairo is C, so no exception may pass through it.
 cairo_status_t append(void* png, const unsigned char* bytes, unsigned int size) noexcept {
   try {
     static_cast<std::string*>(png)->append(reinterpret_cast<const char*>(bytes), size);

@@ -20,7 +20,7 @@ struct LegendEntry {
   Colour colour;
 };
 
-/// A colour scale with what its ends mean.
+/// A colour scale with the labels of its ends.
 struct ScaleBar {
   std::string low, high;
 };

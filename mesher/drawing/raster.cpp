@@ -19,7 +19,7 @@ std::array<int, 2> pixel_range(double low, double high, int size) {
           static_cast<int>(std::clamp(std::floor(high - 0.5), -1.0, size - 1.0))};
 }
 
-/// The part of a line, in shares of it, whose coordinate from a to b lies between two others.
+/// The part of a line, in fractions of it, whose coordinate from a to b lies between two others.
 struct Part {
   double begin = 0, end = 1;
 
@@ -86,7 +86,7 @@ void Raster::draw_line(const ScreenPoint& from, const ScreenPoint& to, const Col
   const ScreenPoint b = finer(to);
   const double length = std::hypot(b.x() - a.x(), b.y() - a.y());
   const double radius = width_pixels * kFineness / 2;
-  constexpr double kFarthest = 1e15;  // pixels that a double counts, many times over
+  constexpr double kFarthest = 1e15;  // in pixels; a double counts many times as many
   if (!(length < kFarthest)) return;
   Part part;
   part.clip(a.x(), b.x(), -radius - 1, fine_width_ + radius + 1);

@@ -9,14 +9,14 @@
 
 namespace flexneck::mesher {
 
-/// Red, green, blue, each 0 … 1.
+/// Red, green and blue, each 0 … 1.
 using Colour = Eigen::Vector3f;
 
 /// A point of the picture: x to the right and y down in pixels, z towards the eye.
 using ScreenPoint = Eigen::Vector3d;
 
-/// A picture with a depth for each of its pixels: what lies nearer to the eye hides what lies
-/// behind. Drawn three times as fine as it is read, which smooths the edges.
+/// A picture with a depth buffer: points nearer to the eye hide those behind them. It is drawn at
+/// three times the resolution at which it is read, which smooths the edges.
 class Raster {
  public:
   static constexpr int kFineness = 3;
@@ -28,6 +28,7 @@ class Raster {
 
   void draw_triangle(const std::array<ScreenPoint, 3>& corners,
                      const std::array<Colour, 3>& colours);
+  /// Draws a line.
   /// @param lift brings the line nearer to the eye, so that it shows on the surface it lies on
   void draw_line(const ScreenPoint& from, const ScreenPoint& to, const Colour& colour,
                  double width_pixels, double lift);

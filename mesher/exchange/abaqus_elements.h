@@ -11,17 +11,18 @@
 
 namespace flexneck::mesher {
 
-/// The kind of an element TYPE= of Abaqus or CalculiX: C3D8, C3D8I, C3D8R, C3D10, C3D15, C3D20,
-/// C3D20R; in capitals. How an element is integrated is no matter of the mesh.
+/// The element kind of TYPE= of Abaqus or CalculiX: C3D8, C3D8I, C3D8R, C3D10, C3D15, C3D20,
+/// C3D20R; in capitals. A mesh does not store how an element is integrated.
 std::optional<ElementKind> kind_of_abaqus_type(std::string_view type);
-/// All of them, for messages.
+/// All known types, for messages.
 std::string known_abaqus_types();
 
-/// The type that a kind is written as. @throws InputError for hex27 and prism18, which have none.
+/// The type as which a kind is written.
+/// @throws InputError for hex27 and prism18, which have none.
 std::string abaqus_type_of(ElementKind kind, bool is_reduced);
 
-/// Corners, as local nodes of ours, of the side that Abaqus calls S1, S2, … (the CalculiX manual
-/// numbers them alike).
+/// Corners, as local nodes in the order of ElementKind, of the facets that Abaqus calls S1, S2, …
+/// (the CalculiX manual numbers them alike).
 std::span<const std::vector<std::size_t>> abaqus_facets(ElementKind kind);
 
 }  // namespace flexneck::mesher

@@ -32,7 +32,8 @@ void add_box_sets(const std::vector<BoxSet>& boxes, Mesh& mesh) {
   }
 }
 
-/// The message begins with the file, unless it does already, with a line.
+/// Rethrows an error with the file's name in front, unless the message already begins with the file
+/// and line.
 [[noreturn]] void rethrow(const std::filesystem::path& file, const InputError& error) {
   const std::string text = error.what();
   if (text.starts_with(file.string())) throw InputError(text);

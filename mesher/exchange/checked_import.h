@@ -8,13 +8,13 @@
 
 namespace flexneck::mesher {
 
-/// Reads a file of one format or some, such as import_inp(). What a mesh cannot hold is added to
-/// `left_out`.
+/// Reads a file of one or several formats, such as import_inp(). Content that a mesh cannot hold is
+/// added to `left_out`.
 using MeshReader = Mesh (*)(const ImportOptions& options, const Progress& progress,
                             LeftOut& left_out);
 
-/// What every import has in common: the sets of boxes, the checks, and the file's name before what
-/// the reader says is wrong.
+/// Performs the steps common to every import: adds the sets of boxes, checks the mesh, and puts the
+/// file's name in front of the reader's error messages.
 /// @param warn gets one line if the file has more than a mesh can hold, such as masses, springs,
 /// supports and loads: all of it by kind and number
 /// @throws InputError as the reader, LeftOut::require_named(), check() and check_import(); if no

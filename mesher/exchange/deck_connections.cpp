@@ -21,7 +21,7 @@ class Builder {
       : deck_(deck), nodes_(nodes), mesh_(mesh), left_out_(left_out), sites_(deck, nodes, mesh) {}
 
   void build() {
-    // Points first: sites of rotations are known then.
+    // Reference points come first: the sites of rotations are then known.
     for (const DeckCoupling& coupling : deck_.couplings) add(coupling);
     for (const DeckMass& mass : deck_.masses) sites_.site_of(mass.name, mass.node);
     for (const DeckSpring& spring : deck_.springs) {
@@ -78,7 +78,8 @@ class Builder {
     connections().couplings.push_back(std::move(result));
   }
 
-  /// The reference is a node of elements: the point's translations are its.
+  /// Couples a point to a node of elements that is its reference: the translations of both are
+  /// equal.
   void follow_node(const DeckCoupling& coupling, std::int32_t point) {
     const std::int32_t site = translation_site(mesh_.nodes.size(), point);
     for (std::size_t a = 0; a < 3; ++a) {
@@ -126,11 +127,12 @@ class Builder {
     }
   }
 
-  /// Nodes of one name, one axis system and the same directions are one support.
+  /// Adds a node to a support. Nodes with the same name, axis system and directions form one
+  /// support.
   void add_to_set(const DeckSupport& support, std::int32_t node) {
     const std::array<bool, 3> directions = {support.components[0], support.components[1],
                                             support.components[2]};
-    if (directions == std::array<bool, 3>{}) return;  // rotations, which solids do not have
+    if (directions == std::array<bool, 3>{}) return;  // only rotations, which solids do not have
     const AxisSystem* const own = sites_.axes_of(support.node);
     const AxisSystem axes = own != nullptr ? *own : AxisSystem();
     std::array<double, 13> numbers{};
@@ -161,7 +163,7 @@ class Builder {
       const bool is_rotation = sites_.is_rotation(ours->site);
       has_rotation = has_rotation || is_rotation;
       has_translation = has_translation || !is_rotation;
-      // The stiffness has the unit.
+      // The stiffness carries the unit, so the coefficient is in the deck's.
       Term weighted = *ours;
       const double length = is_rotation ? nodes_.length_unit_m : 1;
       for (double& c : weighted.coefficients) c *= term.coefficient / length;
@@ -209,7 +211,8 @@ class Builder {
     connections().masses.push_back(std::move(result));
   }
 
-  /// Of nodes that no element uses, those that nothing else has may be left out of a coupling.
+  /// Refuses couplings of nodes that no element uses but another coupling, equation, spring or mass
+  /// does. Other unused nodes may be left out of a coupling.
   void refuse_chains() const {
     for (const DeckCoupling& coupling : deck_.couplings) {
       for (const std::int64_t node : coupling.nodes) {

@@ -10,14 +10,14 @@ namespace flexneck::mesher {
 
 namespace {
 
-/// Tells whether one of a node's directions x and y is held alone, translations and rotations
-/// apart.
+/// Returns whether exactly one of a node's directions x and y is fixed, of its translations or of
+/// its rotations.
 bool holds_one(const std::array<bool, 6>& components) {
   return components[0] != components[1] || components[3] != components[4];
 }
 
-/// Nodes at which radial and tangential directions differ: supports hold one of them alone, an
-/// equation or a spring has one.
+/// Nodes where radial and tangential directions differ: supports fix only one of them, or an
+/// equation or a spring acts on one.
 std::set<std::int64_t> nodes_with_radial_directions(const DeckConnections& deck) {
   std::map<std::int64_t, std::array<bool, 6>> held;
   for (const DeckSupport& support : deck.supports) {
@@ -54,7 +54,7 @@ DeckSites::DeckSites(const DeckConnections& deck, const DeckNodes& nodes, Mesh& 
                          " lies on the axis of its cylindrical axes, where radial and tangential "
                          "directions are none; give it other axes, or hold it in both");
       }
-      axes.is_cylindrical = false;  // both or neither of the two: any pair will do
+      axes.is_cylindrical = false;  // both or neither direction is fixed: any pair of axes will do
     }
   }
 }
@@ -124,7 +124,7 @@ std::optional<Term> DeckSites::term_of(const std::string& who, const DeckTerm& t
     if (!point) return std::nullopt;
     site = rotation_site(mesh_.nodes.size(), *point);
   }
-  // Of lengths in the deck's unit and angles that are added, angles weigh as such a length.
+  // Where a deck adds lengths in its unit and angles, an angle counts as one unit of length.
   const bool is_angle = turns || rotation_nodes_.count(term.node) > 0;
   const Eigen::Vector3d direction = term.coefficient * (is_angle ? nodes_.length_unit_m : 1) *
                                     axes_at(who, term.node).col((term.component - 1) % 3);

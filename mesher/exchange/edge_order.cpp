@@ -10,8 +10,8 @@ namespace {
 
 using Group = std::vector<std::size_t>;
 
-/// The corners round each node behind the corners: two of an edge, four of a face, eight of the
-/// centre.
+/// For each node after the corners, the corners around it: two for an edge, four for a face, eight
+/// for the centre.
 std::vector<Group> groups_of(ReferenceShape shape) {
   switch (shape) {
     case ReferenceShape::hexahedron:

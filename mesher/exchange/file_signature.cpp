@@ -24,7 +24,7 @@ std::string shown(std::string_view text) {
 
 bool is_text(std::string_view contents) { return contents.find('\0') == std::string_view::npos; }
 
-/// Sections $Name … $EndName with nothing but blank lines between them.
+/// Checks sections $Name … $EndName with nothing but blank lines between them.
 std::string msh_section_problem(TextLines lines) {
   std::string open;
   bool has_nodes = false;
@@ -49,12 +49,13 @@ std::string msh_section_problem(TextLines lines) {
   return {};
 }
 
-/// The four bytes after the header tell the byte order: one, as this machine writes it.
+/// Checks a binary .msh. The four bytes after the header give the byte order: the number one, as
+/// this machine writes it.
 std::string msh_binary_problem(std::string_view contents) {
   constexpr std::string_view kOne("\1\0\0\0", 4);
   if (!contents.starts_with(kOne)) return "its bytes are in another order";
   TextLines lines(contents.substr(kOne.size()));
-  lines.next();  // the end of that line
+  lines.next();  // rest of the line
   if (!trimmed(lines.next().value_or("")).starts_with("$End")) {
     return "section $MeshFormat has no end";
   }
@@ -91,7 +92,7 @@ std::string msh_problem(std::string_view contents) {
   return msh_section_problem(TextLines(contents));
 }
 
-/// Data sets between lines of -1, the first line among them.
+/// Checks data sets between lines of -1, the first line among them.
 std::string unv_problem(std::string_view contents) {
   TextLines lines(contents);
   const std::string_view first = lines.next().value_or("");
@@ -107,7 +108,7 @@ std::string unv_problem(std::string_view contents) {
   return {};
 }
 
-/// Free or fixed fields; comments and case control may come first.
+/// Checks cards in free or fixed fields; comments and case control may come first.
 std::string bdf_problem(std::string_view contents) {
   if (!is_text(contents)) return "it is no text";
   bool has_grid = false;
@@ -141,7 +142,7 @@ std::string brep_problem(std::string_view contents) {
   return "expected 'CASCADE Topology V…' in the first lines, found " + shown(first);
 }
 
-/// TextLines of keywords and data; the first that is no comment is a keyword.
+/// Checks lines of keywords and data; the first line that is no comment is a keyword.
 std::string inp_problem(std::string_view contents) {
   if (!is_text(contents)) return "it is no text";
   TextLines lines(contents);

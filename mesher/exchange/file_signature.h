@@ -8,8 +8,8 @@
 
 namespace flexneck::mesher {
 
-/// What is wrong with the contents of a file of this format, or an empty text if they begin, and as
-/// far as a format has one are built, as they must.
+/// Returns why the contents are no file of this format: their beginning or, where the format has
+/// one, their structure is wrong. Empty text if they are sound.
 std::string signature_problem(ForeignFormat format, std::string_view contents);
 
 }  // namespace flexneck::mesher

@@ -18,9 +18,9 @@
 namespace flexneck::mesher {
 namespace {
 
-/// Of the mesh's size: rounding of the numbers in a text file, far below any element.
+/// Fraction of the mesh's size: rounding of the numbers in a text file, far below any element.
 constexpr double kSamePlace = 1e-9;
-/// Below this a scaled Jacobian is rounding.
+/// Scaled Jacobian below which it is only rounding.
 constexpr double kDegenerate = 1e-6;
 
 using Point = std::array<double, 3>;
@@ -60,8 +60,8 @@ void refuse_doubled_elements(const Mesh& mesh) {
                    first + "; remove the copies");
 }
 
-/// Nodes that lie where another of smaller index does, ascending. Sorted along a direction in which
-/// no mesh has planes, nodes in the same place are neighbours.
+/// Nodes at the position of another with a smaller index, ascending. Nodes are sorted along a
+/// direction in which no mesh has planes, so that nodes at the same position are neighbours.
 std::vector<std::int32_t> doubled_nodes(const Mesh& mesh) {
   const double tolerance = kSamePlace * bounding_box(mesh).extent_m().norm();
   const Eigen::Vector3d direction = Eigen::Vector3d(0.8191, 0.5013, 0.2789).normalized();
@@ -94,7 +94,7 @@ void refuse_doubled_nodes(const Mesh& mesh) {
                    "nodes, or say coincident_nodes = \"keep\" if a gap is meant");
 }
 
-/// Couplings, equations and springs join what they are at.
+/// Joins the nodes that couplings, equations and springs connect.
 void join_connected(const Mesh& mesh, DisjointSets& pieces) {
   const Connections& connections = mesh.connections;
   const auto place = [&](std::int32_t site) {  // both sites of a point are one

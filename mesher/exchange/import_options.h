@@ -19,23 +19,24 @@ struct BoxSet {
   std::array<double, 3> high_m{};
 };
 
-/// A geometry or mesh that the user brings, and what is made of it.
+/// A geometry or mesh file of the user, and the options of its import.
 struct ImportOptions {
-  std::filesystem::path file;  ///< its ending says what it is, see foreign_file.h
-  double length_unit_m = 1;    ///< what the number 1 in the file means; a STEP file knows it itself
-  double force_unit_N = 1;  ///< the same for materials, springs and masses of .inp, .bdf; time: s
+  std::filesystem::path file;       ///< its ending gives the format, see foreign_file.h
+  double length_unit_m = 1;         ///< unit of length of the file; ignored for STEP
+  double force_unit_N = 1;          ///< unit of force of .inp, .bdf; the unit of time is s
   std::vector<Material> materials;  ///< in SI units
-  /// Part to material name. What an .inp says of the materials of other parts holds; in every other
-  /// file each part needs a material here.
+  /// Material name by part. Other parts of an .inp keep the file's materials; in every other file
+  /// each part needs a material here.
   std::map<std::string, std::string> material_of_part;
-  double element_size_m = 0;   ///< of STEP and BREP shapes; 0: gmsh's choice
-  bool is_reduced = false;     ///< modes will be of reduced integration, as C3D20R of an .inp are
-  bool keeps_doubles = false;  ///< nodes in the same place are meant, as at a crack
-  /// Kinds of cards or elements that change the structure and are not supported: to go without.
+  double element_size_m = 0;   ///< element size of STEP and BREP shapes; 0 for gmsh's choice
+  bool is_reduced = false;     ///< modes will use reduced integration, as C3D20R of an .inp
+  bool keeps_doubles = false;  ///< nodes at the same position are intended, as at a crack
+  /// Kinds of unsupported cards or elements that change the structure and that the user agrees to
+  /// leave out.
   std::vector<std::string> leave_out;
   std::vector<BoxSet> box_sets;
-  /// Called once a shape is read, before it is meshed, with about the number of nodes that its mesh
-  /// will have; may be empty.
+  /// Called when a shape has been read, before it is meshed, with the estimated number of nodes of
+  /// its mesh; may be empty.
   std::function<void(double nodes)> when_read = {};
 };
 

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Fields between commas; nothing counts behind a trailing one.
+/// Fields between commas; a trailing comma has no field behind it.
 std::vector<std::string> fields_of(std::string_view line) {
   std::vector<std::string> fields;
   while (true) {
@@ -30,7 +30,7 @@ std::vector<std::string> fields_of(std::string_view line) {
   return fields;
 }
 
-/// Blanks inside a keyword or the name of a parameter count as one: "SOLID  SECTION".
+/// The name of a keyword or parameter; several blanks inside it count as one: "SOLID  SECTION".
 std::string name_of(const std::string& text) {
   std::istringstream words(text);
   std::string name;
@@ -66,7 +66,7 @@ class Reader {
   void read(const fs::path& file, const std::string& text) {
     std::istringstream lines(text);
     InpPlace place{file.string(), 0};
-    std::string open_keyword;  // a keyword line whose comma asks for more
+    std::string open_keyword;  // keyword line that a trailing comma continues
     InpPlace open_place;
     for (std::string raw; std::getline(lines, raw);) {
       ++place.line;

@@ -27,7 +27,7 @@ const std::map<std::string, std::set<int>>& named_supports() {
 
 std::string line_of(const InpPlace& place) { return " in line " + std::to_string(place.line); }
 
-/// All fields of some lines, one behind the other; blank ones at the end of a line do not count.
+/// A field of some lines taken one after another; blank fields at the end of a line do not count.
 struct Field {
   const InpData* line;
   std::size_t field;
@@ -74,7 +74,7 @@ void InpConnectionReader::boundary(const InpCard& card, const InpModel& model) {
   if (card.has("OP") && upper_case(card.parameter("OP")) == "NEW" && !supports_.empty()) {
     card.refuse("OP=NEW lets go what was fixed before; give one *BOUNDARY for the modes");
   }
-  constexpr std::int64_t kLast = 6;  // behind it are temperatures and the like
+  constexpr std::int64_t kLast = 6;  // higher components are temperatures and the like
   for (const InpData& line : card.data) {
     std::set<int> components;
     const std::string second = line.fields.size() > 1 ? upper_case(line.fields[1]) : "";
@@ -138,7 +138,7 @@ void InpConnectionReader::mpc(const InpCard& card, const InpModel& model) {
       }
       continue;
     }
-    // The distance stays.
+    // The distance between the two nodes stays constant.
     const Eigen::Vector3d along =
         Eigen::Vector3d(model.nodes.at(one).data()) - Eigen::Vector3d(model.nodes.at(two).data());
     if (!(along.norm() > 0)) {
@@ -147,7 +147,7 @@ void InpConnectionReader::mpc(const InpCard& card, const InpModel& model) {
     Eigen::Index largest = 0;
     along.cwiseAbs().maxCoeff(&largest);
     DeckEquation equation{name, {}};
-    for (Eigen::Index k = 0; k < 3; ++k) {  // the largest first
+    for (Eigen::Index k = 0; k < 3; ++k) {  // the largest component comes first
       const Eigen::Index a = (largest + k) % 3;
       if (along[a] == 0) continue;
       equation.terms.push_back({one, static_cast<int>(a) + 1, along[a] / along.norm()});
@@ -215,7 +215,7 @@ DeckConnections InpConnectionReader::finish(const InpModel& model) {
   }
   point_elements_.add_to(connections_);
   for (const auto& [node, components] : supports_) {
-    if (model.nodes.count(node) == 0) continue;  // of a range
+    if (model.nodes.count(node) == 0) continue;  // a number within a range may be missing
     DeckSupport support{"*BOUNDARY", node, {}};
     for (const int component : components) {
       support.components[static_cast<std::size_t>(component - 1)] = true;

@@ -13,24 +13,24 @@
 
 namespace flexneck::mesher {
 
-/// Reads what an .inp says beside nodes and solids: supports (*BOUNDARY), equations (*EQUATION,
-/// *MPC of types PIN, TIE, LINK and BEAM), rigid bodies (*RIGID BODY), masses and springs (*ELEMENT
-/// of types MASS, SPRING1, SPRING2 and SPRINGA with *MASS and *SPRING) and axes of nodes
-/// (*TRANSFORM).
+/// Reads the connections of an .inp: supports (*BOUNDARY), equations (*EQUATION, *MPC of types PIN,
+/// TIE, LINK and BEAM), rigid bodies (*RIGID BODY), masses and springs (*ELEMENT of types MASS,
+/// SPRING1, SPRING2 and SPRINGA with *MASS and *SPRING) and axes of nodes (*TRANSFORM).
 class InpConnectionReader {
  public:
-  /// Elements of types that InpPointElements has. @return their numbers
+  /// Reads elements of a type for which InpPointElements::has() is true.
+  /// @return their numbers
   std::vector<std::int64_t> elements(const InpCard& card, const std::string& type) {
     return point_elements_.add(card, type);
   }
 
-  /// @param card one of those above, but *ELEMENT
+  /// @param card one of those above, except *ELEMENT
   void read(const InpCard& card, const InpModel& model);
 
   /// Nodes that supports and rigid bodies name by number.
   const std::vector<std::int64_t>& supported_by_number() const { return supported_by_number_; }
-  /// @throws InputError for elements without *MASS or *SPRING, and for what *TRANSFORM makes
-  /// unclear.
+  /// @throws InputError for elements without *MASS or *SPRING, and for connections that *TRANSFORM
+  /// makes ambiguous.
   DeckConnections finish(const InpModel& model);
 
  private:

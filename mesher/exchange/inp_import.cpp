@@ -21,6 +21,7 @@ std::vector<std::string> names_in(const InpSets& sets) {
   return names;
 }
 
+/// The element set of this name.
 /// @throws InputError with the nearest name.
 const InpSet& elset_of(const InpModel& model, const std::string& name, const std::string& who) {
   const auto found = model.elsets.find(upper_case(name));
@@ -54,7 +55,7 @@ void assign_parts_of_study(const InpModel& model, const ImportOptions& options, 
   }
 }
 
-/// Elements that the study says nothing of belong to the file's sections.
+/// Assigns elements that the study does not mention to the file's sections.
 void assign_parts_of_file(const InpModel& model, Assignment& all) {
   const std::size_t of_study = all.parts.size();
   for (const InpSection& section : model.sections) {
@@ -93,7 +94,7 @@ void require_all_assigned(const InpModel& model, const Assignment& all) {
                    (sets.empty() ? "none" : sets));
 }
 
-/// E counts in F / L^2, the density in F s^2 / L^4.
+/// The material in SI units: E is in F / L^2, the density in F s^2 / L^4.
 Material material_in_si(const InpMaterial& given, const ImportOptions& options) {
   const auto require = [&](const std::optional<double>& value, const std::string& keyword) {
     if (!value) throw InputError("material '" + given.name + "' of the file has no " + keyword);
@@ -108,7 +109,7 @@ Material material_in_si(const InpMaterial& given, const ImportOptions& options) 
                            (length * length * length * length)};
 }
 
-/// Position of a part's material in the mesh: the study's, or the file's, which joins them.
+/// Position of a part's material in the mesh: the study's, or the file's, which is appended.
 std::size_t material_index(const std::string& name, bool is_of_study, const InpModel& model,
                            const ImportOptions& options, Mesh& mesh) {
   if (is_of_study) return find_name(names_of(mesh.materials), name, "material");
@@ -126,7 +127,7 @@ std::size_t material_index(const std::string& name, bool is_of_study, const InpM
   return mesh.materials.size() - 1;
 }
 
-/// Nodes that elements use, numbered from 0 in the order of their numbers.
+/// Nodes that elements use, numbered from 0 in the order of the file's numbers.
 std::map<std::int64_t, std::int32_t> number_nodes(const InpModel& model) {
   std::map<std::int64_t, std::int32_t> index_of;
   for (const InpElement& element : model.elements) {
@@ -172,7 +173,7 @@ void add_blocks(const InpModel& model, const Assignment& all, const ImportOption
   }
 }
 
-/// A set of the file's nodes, without those that no element uses.
+/// A node set of the file, without nodes that no element uses.
 NodeSet node_set_of(const std::string& name, const std::vector<std::int64_t>& numbers,
                     const std::map<std::int64_t, std::int32_t>& index_of) {
   NodeSet set{.name = name, .nodes = {}};
@@ -187,7 +188,7 @@ void add_node_sets(const InpModel& model, const std::map<std::int64_t, std::int3
                    Mesh& mesh) {
   const std::vector<Facet> boundary = boundary_facets(mesh);
   const auto add = [&](NodeSet set) {
-    if (set.nodes.empty()) return;  // of nodes without elements
+    if (set.nodes.empty()) return;  // all its nodes are without elements
     std::vector<bool> is_in(mesh.nodes.size(), false);
     for (const std::int32_t node : set.nodes) is_in[static_cast<std::size_t>(node)] = true;
     FaceSet faces = faces_among(boundary, set.name, [&](std::int32_t node) {
@@ -200,7 +201,7 @@ void add_node_sets(const InpModel& model, const std::map<std::int64_t, std::int3
   if (model.nsets.count("BOUNDARY") == 0) add(node_set_of("boundary", model.fixed, index_of));
 }
 
-/// Nodes of side S<n> of an element in the order of its kind of face, outwards.
+/// The facet S<n> of an element as a face in the node order of its kind, normal outwards.
 FaceBlock face_of(const InpElement& element, std::size_t side,
                   const std::map<std::int64_t, std::int32_t>& index_of) {
   const auto abaqus = abaqus_facets(element.kind);
@@ -221,10 +222,10 @@ FaceBlock face_of(const InpElement& element, std::size_t side,
     }
     return face;
   }
-  throw ComputationError("a side of an element has no counterpart");  // the tables are at fault
+  throw ComputationError("a side of an element has no counterpart");  // an error in the tables
 }
 
-/// A surface takes the place of the faces that an NSET of its name has brought.
+/// Adds the SURFACEs as face sets. A surface replaces the face set made from an NSET of its name.
 void add_surfaces(const InpModel& model, const std::map<std::int64_t, std::int32_t>& index_of,
                   Mesh& mesh) {
   const auto element_of = [&](std::int64_t number) -> const InpElement& {
@@ -267,7 +268,8 @@ void add_surfaces(const InpModel& model, const std::map<std::int64_t, std::int32
   }
 }
 
-/// The types whose stiffness differs from ours whatever the formulation, or but for one.
+/// Notes element types whose integration differs from that of this program for every formulation,
+/// or for all but one.
 void add_integration(const InpModel& model, const ImportOptions& options, LeftOut& left_out) {
   for (const auto& [type, count] : model.types) {
     const bool is_ours = type == "C3D20R" ? options.is_reduced : type != "C3D8I" && type != "C3D8R";
@@ -275,7 +277,8 @@ void add_integration(const InpModel& model, const ImportOptions& options, LeftOu
   }
 }
 
-/// @param used nodes of no solid element that the mesh has all the same
+/// Notes the nodes that belong to no solid element.
+/// @param used nodes of no solid element that the mesh keeps
 void add_loose_nodes(const InpModel& model, const std::map<std::int64_t, std::int32_t>& index_of,
                      const std::set<std::int64_t>& used, LeftOut& left_out) {
   left_out.add("nodes of no solid element", model.nodes.size() - index_of.size() - used.size());

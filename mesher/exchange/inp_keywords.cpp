@@ -74,7 +74,7 @@ void add_keywords_without_effect(std::map<std::string, InpKeyword>& rows) {
        "TEMPERATURE"});
   add(InpUse::assembly, "the whole keyword is refused",
       {"PART", "END PART", "ASSEMBLY", "END ASSEMBLY", "INSTANCE", "END INSTANCE"});
-  // READ goes on from the model and the state of another analysis.
+  // READ continues from the model and the state of another analysis.
   const std::string written = "the file that it writes is for another run";
   rows["RESTART"] = {
       InpUse::passed_over,

@@ -91,7 +91,7 @@ class ModelReader {
 
   struct OtherType {
     std::size_t count = 0;
-    std::string first;  ///< place
+    std::string first;  ///< place of the first
   };
 
   InpModel model_;
@@ -118,7 +118,7 @@ const std::map<std::string, ModelReader::Handler>& ModelReader::handlers() {
   return kHandlers;
 }
 
-/// Modes that follow a static step are those of the loaded structure.
+/// Remarks that modes after a static step would be those of the preloaded structure.
 void ModelReader::notice_preload(const InpCard& card) {
   if (card.keyword == "STATIC") preload_ = "line " + std::to_string(card.place.line);
   if (card.keyword != "FREQUENCY" || preload_.empty()) return;
@@ -241,7 +241,8 @@ void ModelReader::refuse_other_types(const std::filesystem::path& file) const {
                    "; supported are " + known_abaqus_types());
 }
 
-/// A number in a range may stand for none; one that is written out is a slip of the pen.
+/// Checks the members of the sets. A number within a range may be undefined; one that is written
+/// out must not be.
 /// @param kind NSET or ELSET
 /// @param member node or element
 template <class Known>

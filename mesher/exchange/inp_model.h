@@ -20,9 +20,9 @@ namespace flexneck::mesher {
 struct InpSet {
   std::string name;  ///< as written where it first appears
   std::vector<std::int64_t> members;
-  std::vector<std::int64_t> written;  ///< those written out, not by a range or another set
+  std::vector<std::int64_t> written;  ///< written out, not given by a range or another set
 };
-/// By the name in capitals: names are the same in either case.
+/// Sets by their names in capitals: the case of a name does not matter.
 using InpSets = std::map<std::string, InpSet>;
 
 struct InpElement {
@@ -31,7 +31,7 @@ struct InpElement {
   std::vector<std::int64_t> nodes;  ///< numbers, in the order of Mesh
 };
 
-/// A side S<n> of an element.
+/// The facet S<n> of an element.
 struct InpSide {
   std::int64_t element = 0;
   std::size_t side = 0;  ///< counted from 0
@@ -42,7 +42,7 @@ struct InpSurface {
   std::vector<InpSide> sides;
 };
 
-/// In the units of the file; what it does not say is missing.
+/// A material in the units of the file; properties that the file does not give are empty.
 struct InpMaterial {
   std::string name;
   std::optional<double> youngs_modulus;
@@ -56,13 +56,14 @@ struct InpSection {
   std::string material;
 };
 
-/// What we take from an Abaqus or CalculiX input.
+/// The imported content of an Abaqus or CalculiX input.
 struct InpModel {
   std::map<std::int64_t, std::array<double, 3>> nodes;  ///< in the unit of the file
   std::vector<InpElement> elements;                     ///< by number, ascending
   InpSets elsets;
   InpSets nsets;
-  std::vector<std::string> element_elsets;  ///< ELSET= of *ELEMENT, in capitals, as they come
+  std::vector<std::string> element_elsets;  ///< ELSET= of *ELEMENT, in capitals, in the file's
+                                            ///< order
   std::vector<InpSurface> surfaces;
   std::vector<InpMaterial> materials;
   std::vector<InpSection> sections;
@@ -70,16 +71,16 @@ struct InpModel {
   DeckConnections connections;
   std::vector<std::string> ignored;          ///< keywords that were passed over, each once
   std::map<std::string, std::size_t> types;  ///< number of elements by TYPE=, in capitals
-  LeftOut left_out;                          ///< loads, prestress, damping, numbers of nothing
+  LeftOut left_out;                          ///< loads, prestress, damping, undefined numbers
 };
 
 /// Reads *NODE, *ELEMENT (the types of abaqus_elements.h), *ELSET, *NSET, *SURFACE (of elements),
-/// *MATERIAL with *ELASTIC (isotropic) and *DENSITY, *SOLID SECTION and what inp_connections.h
-/// lists. Analysis steps and output requests are passed over; loads, prestress and damping are left
-/// out and counted; what would change the structure (ties, parts and instances …) is refused, and
-/// so is every keyword that is not known.
+/// *MATERIAL with *ELASTIC (isotropic) and *DENSITY, *SOLID SECTION and the keywords of
+/// inp_connections.h. Analysis steps and output requests are passed over; loads, prestress and
+/// damping are left out and counted; keywords that would change the structure (ties, parts and
+/// instances …) are refused, and so is every unknown keyword.
 /// @throws InputError with file and line; for elements of other types: which, how many, where; for
-/// sets and supports with numbers, written out, that the file has not.
+/// sets and supports with written-out numbers that the file does not define.
 InpModel read_inp(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace flexneck::mesher

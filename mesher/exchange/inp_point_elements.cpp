@@ -11,7 +11,7 @@
 namespace flexneck::mesher {
 namespace {
 
-/// With their numbers of nodes.
+/// Types of point elements with their numbers of nodes.
 constexpr std::array<std::pair<const char*, std::size_t>, 4> kPointTypes = {
     {{"MASS", 1}, {"SPRING1", 1}, {"SPRING2", 2}, {"SPRINGA", 2}}};
 
@@ -67,7 +67,8 @@ void InpPointElements::add_springs(const InpCard& card, DeckConnections& connect
     DeckSpring spring;
     spring.name = element.type + " element " + std::to_string(element.number);
     spring.is_along_nodes = element.type == "SPRINGA";
-    const std::size_t lines = spring.is_along_nodes ? 1 : 2;  // its blank line is none to us
+    const std::size_t lines = spring.is_along_nodes ? 1 : 2;  // without its blank line, which is
+                                                              // not stored
     if (card.data.size() != lines) {
       card.refuse("expected its degrees of freedom and one line with the stiffness");
     }

@@ -14,7 +14,7 @@ namespace flexneck::mesher {
 /// and *SPRING.
 class InpPointElements {
  public:
-  /// Whether the elements of a TYPE=, in capitals, are masses or springs.
+  /// Returns whether the elements of a TYPE=, in capitals, are masses or springs.
   static bool has(const std::string& type);
   /// @return the numbers of the elements
   std::vector<std::int64_t> add(const InpCard& card, const std::string& type);
@@ -39,7 +39,8 @@ class InpPointElements {
   std::vector<InpCard> properties_;  ///< *MASS and *SPRING
 };
 
-/// A degree of freedom of a node. @throws InputError with the line unless it is 1 to 6.
+/// The component of a degree of freedom in a field.
+/// @throws InputError with the line unless it is 1 to 6.
 int inp_component(const InpData& line, std::size_t field);
 
 }  // namespace flexneck::mesher

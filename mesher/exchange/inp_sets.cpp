@@ -11,7 +11,7 @@ namespace flexneck::mesher {
 namespace {
 
 constexpr std::size_t kMaxOfRanges = 10'000'000;  ///< numbers of one range
-constexpr std::size_t kMaxInSets = 20'000'000;    ///< where there are ranges: 160 MB
+constexpr std::size_t kMaxInSets = 20'000'000;    ///< numbers of all sets if any has ranges: 160 MB
 
 std::vector<std::int64_t> range_of(const InpData& line) {
   const std::int64_t first = inp_integer(line, 0);

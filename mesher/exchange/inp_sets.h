@@ -13,10 +13,10 @@ void read_inp_set(const InpCard& card, const std::string& parameter, InpSets& se
 void add_to_inp_set(InpSets& sets, const std::string& name,
                     const std::vector<std::int64_t>& members);
 
-/// Whether a field is the name of a set, and no number.
+/// Returns whether a field is the name of a set, not a number.
 bool is_inp_set(const InpData& line, std::size_t field, const InpSets& sets);
 
-/// What a field names: a number, or the members of a set.
+/// The numbers that a field stands for: its own number, or the members of the set it names.
 std::vector<std::int64_t> inp_members_of(const InpData& line, std::size_t field,
                                          const InpSets& sets, const std::string& kind);
 

@@ -19,7 +19,7 @@
 namespace flexneck::mesher {
 namespace {
 
-constexpr int kNumberWidth = 20;  ///< CalculiX cuts numbers off behind this
+constexpr int kNumberWidth = 20;  ///< CalculiX truncates longer numbers
 constexpr std::size_t kFieldsPerLine = 16;
 
 std::string number(double value) { return text_within(value, kNumberWidth); }
@@ -42,7 +42,7 @@ void check_inp_names(const std::vector<std::string>& names, const std::string& k
   }
 }
 
-/// Whole numbers, sixteen a line; a comma at the end says that there are more.
+/// Writes whole numbers, sixteen a line; a comma at the end of a line announces more.
 void write_list(OutputFile& out, std::span<const std::int64_t> values) {
   std::string text;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -89,7 +89,7 @@ void write_node_sets(OutputFile& out, const Mesh& mesh) {
   }
 }
 
-/// "<element>,S<n>" of the first element with a side on these nodes, by their key.
+/// "<element>,S<n>" of the first element that has a facet, by the facet's key.
 using SideNames = std::map<FacetKey, std::string>;
 
 SideNames side_names(const Mesh& mesh) {
@@ -146,7 +146,8 @@ void write_materials(OutputFile& out, const Mesh& mesh) {
 
 using FixedNodes = std::map<std::int32_t, std::array<bool, 3>>;
 
-/// The upper node of a pair follows the lower one, unless both are fixed anyway.
+/// Writes tied slits as equations. The upper node of a pair follows the lower one, unless both are
+/// fixed.
 void write_ties(OutputFile& out, const Mesh& mesh, const FixedNodes& fixed) {
   for (const Slit& slit : mesh.slits) {
     if (!slit.tied) continue;
@@ -184,7 +185,7 @@ void write_boundary(OutputFile& out, const Mesh& mesh, const InpOptions& options
   }
 }
 
-/// Supports along x, y and z are written, nothing else.
+/// Refuses connections other than supports along x, y and z.
 void check_connections(Connections connections) {
   std::erase_if(connections.supports,
                 [](const Support& support) { return support.axes.is_global(); });
@@ -194,7 +195,7 @@ void check_connections(Connections connections) {
       ": of such connections only supports along x, y and z are; leave the others out");
 }
 
-/// "node,direction[,direction],value" of what is not zero.
+/// Writes "node,direction[,direction],value" for the values that are not zero.
 void write_values(OutputFile& out, const std::string& card, bool twice,
                   const std::vector<std::array<double, 3>>& values) {
   bool has_begun = false;

@@ -8,25 +8,27 @@
 
 namespace flexneck::mesher {
 
-/// Collects what a file gives and the mesh cannot hold, by kind and number. Loads and the
-/// like are told to the user in one line; what changes the structure, such as rigid elements, is
+/// Collects content of a file that the mesh cannot hold, by kind and number. Loads and the like are
+/// reported to the user in one line; content that changes the structure, such as rigid elements, is
 /// refused unless the user has named it.
 class LeftOut {
  public:
   void add(const std::string& kind, std::size_t count = 1);
-  /// Something that is said in words, without a number.
+  /// Adds a remark in words, without a number.
   void remark(const std::string& text) { remarks_.push_back(text); }
-  /// Something without which the structure is another one.
-  /// @param place of the first, for the message: "line 7"
+  /// Adds content whose omission changes the structure.
+  /// @param place of the first item, for the message: "line 7"
   void add_to_structure(const std::string& kind, const std::string& place);
 
-  /// @param named kinds that the user does without
+  /// Checks that the user has agreed to every omission that changes the structure.
+  /// @param named kinds that the user agrees to leave out
   /// @throws InputError for kinds that change the structure and are not named, with their numbers
-  /// and where the first is; for names of which there is nothing.
+  /// and the place of the first; for names of kinds that do not occur.
   void require_named(const std::vector<std::string>& named);
 
   bool empty() const { return counts_.empty() && remarks_.empty() && of_structure_.empty(); }
-  /// "not carried over: 3 FORCE, 2 SPC1; a remark", kinds in alphabetical order, at most 30.
+  /// Text such as "not carried over: 3 FORCE, 2 SPC1; a remark", kinds in alphabetical order, at
+  /// most 30.
   std::string text() const;
 
  private:

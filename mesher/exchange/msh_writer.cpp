@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kPointType = 15;  ///< gmsh's element of one node
 
-/// Numbers as the format wants them: in a line of text, or as their bytes.
+/// Writes numbers as the format wants them: as text in a line, or as their bytes.
 class MshStream {
  public:
   MshStream(const std::filesystem::path& file, MshEncoding encoding)
@@ -30,12 +30,12 @@ class MshStream {
   MshStream& number(double number) {
     return put(number, [&] { return exact_text(number); });
   }
-  /// A line ends; in binary lines have no ends.
+  /// Ends a line of numbers; binary numbers have no line ends.
   void end_line() {
     if (!is_binary_) file_.write("\n");
     at_start_ = true;
   }
-  /// Text on a line of its own in either encoding.
+  /// Writes text on a line of its own in either encoding.
   void text(const std::string& line) { file_.write(line + "\n"); }
   void begin(const std::string& section) { text("$" + section); }
   void end(const std::string& section) {
@@ -94,7 +94,7 @@ Rows rows_of(ElementKind kind, const std::vector<std::int32_t>& nodes) {
   return {traits_of(kind).gmsh_type, nodes_per_element(kind), nodes};
 }
 
-/// Points first, volumes last, as the format lists them.
+/// The entities in the order of the format: points first, volumes last.
 std::vector<Entity> entities_of(const Mesh& mesh) {
   std::vector<Entity> entities;
   for (const NodeSet& set : mesh.node_sets) {
@@ -142,7 +142,7 @@ void write_header(MshStream& out) {
   }
 }
 
-/// Text in either encoding.
+/// Writes the physical names, which are text in either encoding.
 void write_names(MshStream& out, const std::vector<Entity>& entities) {
   out.begin("PhysicalNames");
   out.text(std::to_string(entities.size()));
@@ -168,13 +168,13 @@ void write_entities(MshStream& out, const std::vector<Entity>& entities, const B
       for (const double x : box.high_m) out.number(x);
     }
     out.size(1).integer(entity.tag);
-    if (entity.dimension > 0) out.size(0);  // no bounding entities
+    if (entity.dimension > 0) out.size(0);  // number of bounding entities
     out.end_line();
   }
   out.end("Entities");
 }
 
-/// All nodes are the first volume's: which entity a node lies on matters to no reader of elements.
+/// Writes all nodes as the first volume's: readers of elements do not need the entity of a node.
 void write_nodes(MshStream& out, const Mesh& mesh) {
   const std::size_t count = mesh.nodes.size();
   out.begin("Nodes");

@@ -14,7 +14,7 @@ namespace flexneck::mesher {
 namespace {
 
 constexpr std::size_t kNameWidth = 8;
-constexpr std::size_t kMarkColumn = 72;  ///< of the last field, counted from 0
+constexpr std::size_t kMarkColumn = 72;  ///< column of the last field, counted from 0
 
 [[noreturn]] void refuse_line(std::size_t number, const std::string& problem) {
   throw InputError("line " + std::to_string(number) + ": " + problem);
@@ -25,8 +25,8 @@ struct BulkLine {
   std::size_t number = 0;
   std::string head;                 ///< its first field in capitals
   std::vector<std::string> fields;  ///< eight, or four wide ones
-  std::string mark;                 ///< of the line that continues it, without the first character
-  bool needs_more = false;          ///< the mark has a +
+  std::string mark;                 ///< continuation mark without its first character
+  bool needs_more = false;          ///< the mark begins with a +
   bool is_wide = false;
   bool has_tabs = false;
   std::optional<std::size_t> next;  ///< the line that continues it
@@ -36,7 +36,7 @@ struct BulkLine {
   }
 };
 
-/// Free fields have a comma in the first ten columns.
+/// True for free fields: a comma stands in the first ten columns.
 bool is_free(std::string_view line) {
   return line.substr(0, 10).find(',') != std::string_view::npos;
 }
@@ -52,7 +52,7 @@ std::vector<std::string> free_fields(std::string_view line) {
   return fields;
 }
 
-/// The first character of a mark does not count.
+/// A continuation mark without its first character, + or *.
 std::string mark_of(std::string_view text) {
   const std::string_view whole = trimmed(text);
   if (whole.empty()) return {};
@@ -142,7 +142,7 @@ void join(std::vector<BulkLine>& lines) {
   }
 }
 
-/// The line with all that continue it.
+/// The card of a line and all its continuation lines.
 NastranCard card_from(const std::vector<BulkLine>& lines, std::size_t first) {
   NastranCard card{.name = lines[first].head.substr(0, lines[first].head.find_first_of("* \t")),
                    .fields = {},

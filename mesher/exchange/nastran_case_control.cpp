@@ -12,7 +12,7 @@
 namespace flexneck::mesher {
 namespace {
 
-/// "SPC = 1", or "SPC 1": a word in capitals and what it is set to.
+/// A command "SPC = 1", or "SPC 1": a word in capitals and its value.
 struct Command {
   std::string word;
   std::string value;
@@ -57,7 +57,8 @@ class CaseReader {
     (cases_.empty() ? above_ : cases_.back().sets)[word] = set;
   }
 
-  /// A subcase has what stands above the subcases, unless it says otherwise.
+  /// Returns the selected sets. A subcase inherits the lines above the subcases, unless it
+  /// overrides them.
   NastranCaseControl finish() const {
     NastranCaseControl control{true, cases_.empty() ? above_ : cases_.front().sets};
     for (const char* const word : {"SPC", "MPC"}) {

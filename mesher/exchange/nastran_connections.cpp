@@ -63,7 +63,7 @@ class ConnectionReader {
   }
 
  private:
-  /// Sets that act, those of SPCADD and MPCADD by their parts.
+  /// Numbers of the selected sets; SPCADD and MPCADD are replaced by their parts.
   std::set<std::int64_t> selected(const std::string& kind, const NastranCaseControl& control) {
     std::set<std::int64_t> there;
     for (const NastranCard& card : cards_) {
@@ -104,7 +104,7 @@ class ConnectionReader {
     if (system != 0) systems_of_grids_[number] = {card, system};
   }
 
-  /// Of nodes that something holds or joins; on others no axes act.
+  /// Adds the axes of nodes that are supported or connected; axes of others have no effect.
   void add_axes() {
     std::set<std::int64_t> used;
     for (const DeckSupport& support : deck_.supports) used.insert(support.node);
@@ -218,7 +218,7 @@ class ConnectionReader {
     const std::int64_t system = nastran_integer_or(card, 2, 0);
     Eigen::Vector3d offset(nastran_number(card, 4), nastran_number(card, 5),
                            nastran_number(card, 6));
-    Eigen::Matrix3d inertia;  // Nastran gives the integrals of products
+    Eigen::Matrix3d inertia;  // Nastran's products of inertia are the positive integrals
     inertia << nastran_number(card, 8), -nastran_number(card, 9), -nastran_number(card, 11),
         -nastran_number(card, 9), nastran_number(card, 10), -nastran_number(card, 12),
         -nastran_number(card, 11), -nastran_number(card, 12), nastran_number(card, 13);
@@ -237,7 +237,7 @@ class ConnectionReader {
     deck_.masses.push_back(std::move(mass));
   }
 
-  /// CELAS2: number, K, G1, C1, G2, C2; CELAS1 has its property in place of K.
+  /// Adds a spring. CELAS2: number, K, G1, C1, G2, C2; CELAS1 has its property in place of K.
   void add_spring(const NastranCard& card) {
     DeckSpring spring{card.name + " " + card.field(0), {}, 0, false};
     if (card.name == "CELAS2") {

@@ -14,8 +14,7 @@
 
 namespace flexneck::mesher {
 
-/// Whether a card is one that read_nastran_connections() reads, other than GRID and coordinate
-/// systems.
+/// Returns whether read_nastran_connections() reads a card, other than GRID and coordinate systems.
 bool is_nastran_connection(std::string_view name);
 
 /// Reads RBE2, MPC, SPC, SPC1, the supports of GRIDs, CONM2, CELAS1 with PELAS, and CELAS2, in the
@@ -23,9 +22,9 @@ bool is_nastran_connection(std::string_view name);
 /// selects; without a case control, the only ones.
 /// @param positions of all GRIDs
 /// @param left_out gets the cards of sets that are not selected
-/// @throws InputError with the line for numbers that are none, nodes that are not there, coordinate
-/// systems that are not there or not of these kinds, displacements that are not zero; for several
-/// sets of which none is selected.
+/// @throws InputError with the line for fields that are not numbers, nodes that do not exist,
+/// coordinate systems that do not exist or are not of these kinds, displacements that are not zero;
+/// for several sets of which none is selected.
 DeckConnections read_nastran_connections(
     const std::vector<NastranCard>& cards, const NastranCaseControl& control,
     const std::map<std::int64_t, std::array<double, 3>>& positions, LeftOut& left_out);

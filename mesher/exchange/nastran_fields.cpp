@@ -74,7 +74,7 @@ std::vector<std::int64_t> nastran_list(const NastranCard& card, std::size_t fiel
                                        const std::function<bool(std::int64_t)>& is_there) {
   constexpr std::int64_t kMost = 10'000'000;
   std::vector<std::int64_t> numbers;
-  std::optional<std::int64_t> written;  // the last one, where a range may begin
+  std::optional<std::int64_t> written;  // the last number, where a range may begin
   for (; field < card.fields.size(); ++field) {
     const std::string& text = card.field(field);
     if (text.empty()) continue;

@@ -11,25 +11,27 @@
 
 namespace flexneck::mesher {
 
-// Values of a card's fields, which count from 0 behind its name.
+// Values of a card's fields, which are counted from 0 after its name.
 
+/// Refuses a card.
 /// @throws InputError "line 7: RBE2: <problem>"
 [[noreturn]] void refuse_card(const NastranCard& card, const std::string& problem);
 
-/// @throws InputError as refuse_card(), here and below, for what is no such value.
+/// The integer of a field.
+/// @throws InputError as refuse_card(), here and below, if the field has no such value.
 std::int64_t nastran_integer(const NastranCard& card, std::size_t field);
-/// The fallback stands for an empty field.
+/// The integer of a field, or the fallback if the field is empty.
 std::int64_t nastran_integer_or(const NastranCard& card, std::size_t field, std::int64_t fallback);
-/// Nastran's reals may leave out the letter of the exponent: 1.5-3.
-/// @param fallback of an empty field
+/// The real of a field. Nastran's reals may omit the letter of the exponent: 1.5-3.
+/// @param fallback value of an empty field
 double nastran_number(const NastranCard& card, std::size_t field, double fallback = 0);
-/// "123" to 1, 2, 3.
+/// Components as digits: "123" gives 1, 2, 3.
 std::array<bool, 6> nastran_components(const NastranCard& card, std::size_t field);
-/// One of them, from 1 to 6.
+/// A single component, from 1 to 6.
 int nastran_component(const NastranCard& card, std::size_t field);
-/// Numbers from a field on, with "first THRU last"; a real behind them ends the list.
-/// @param is_there tells whether there is such a number: of a range those that are not there are
-/// left out, one that is written out is refused; without it all are
+/// Numbers from a field on, with "first THRU last"; a real after them ends the list.
+/// @param is_there returns whether a number exists: missing ones within a range are left out,
+/// missing ones that are written out are refused; without it all numbers are taken
 std::vector<std::int64_t> nastran_list(const NastranCard& card, std::size_t field,
                                        const std::function<bool(std::int64_t)>& is_there = {});
 

@@ -37,8 +37,8 @@ constexpr std::array<std::string_view, 65> kSilent = {
     "FREQ",   "FREQ1",  "FREQ2",   "TSTEP",   "NLPARM",  "GRDSET",  "PARAM",   "GRID",   "PLOTEL",
     "SUPORT", "SUPORT1"};
 
-/// Loads, damping and the choice of an approximation: the modes of the structure at rest are
-/// without them.
+/// Loads, damping and choices of an approximation: they do not affect the modes of the structure at
+/// rest.
 constexpr std::array<std::string_view, 39> kLoads = {
     "FORCE",  "FORCE1", "FORCE2", "MOMENT", "MOMENT1", "MOMENT2", "PLOAD",  "PLOAD1",
     "PLOAD2", "PLOAD4", "GRAV",   "RFORCE", "ACCEL",   "ACCEL1",  "TEMP",   "TEMPD",
@@ -75,7 +75,7 @@ auto find_card(const Kinds& kinds, std::string_view name) {
                       [&](const auto& each) { return each.name == name; });
 }
 
-/// Letters and digits, eight at most, as every card's name is.
+/// True for a card's name: letters and digits, eight at most.
 bool is_name(const std::string& text) {
   return !text.empty() && text.size() <= 8 &&
          std::all_of(text.begin(), text.end(), is_letter_or_digit);
@@ -83,8 +83,9 @@ bool is_name(const std::string& text) {
 
 bool is_given(const std::string& field) { return !field.empty() && field != "0"; }
 
-/// As edge_order(), but of hexahedra and prisms the edges from the lower to the upper face come
-/// before those of the upper face (MSC Nastran Quick Reference Guide, CHEXA and CPENTA).
+/// Node order as edge_order(), except that in hexahedra and prisms the edges from the lower to the
+/// upper face come before those of the upper face (MSC Nastran Quick Reference Guide, CHEXA and
+/// CPENTA).
 std::vector<std::size_t> nastran_order(ElementKind kind) {
   std::vector<std::size_t> order = edge_order(kind);
   const bool has_upper_face = kind == ElementKind::hex20 || kind == ElementKind::prism15;
@@ -157,8 +158,8 @@ class ModelReader {
     refuse_card(card, "tabs between fixed fields are not supported; take blanks or commas");
   }
 
-  /// Fields: number, CP, three coordinates, CD, PS. A GRDSET gives CP, CD and PS where a GRID has
-  /// none.
+  /// Adds a node. Fields: number, CP, three coordinates, CD, PS. GRDSET gives the defaults of CP,
+  /// CD and PS.
   void add_grid(const NastranCard& card) {
     if (is_given(card.field(1))) {
       refuse_card(card, "coordinates in system " + card.field(1) +
@@ -173,7 +174,7 @@ class ModelReader {
     }
   }
 
-  /// The scales of matrices are 1 unless given.
+  /// Checks a parameter. The scales of matrices are 1 unless given.
   void add_parameter(const NastranCard& card) {
     constexpr std::array<std::string_view, 4> kScales = {"CK1", "CK3", "CM1", "CM2"};
     const std::string name = upper_case(card.field(0));
@@ -185,7 +186,7 @@ class ModelReader {
                      ": the deck's densities are weights, the study needs masses");
   }
 
-  /// The property is that of the element's number unless given.
+  /// Property of an element; its default is the element's number.
   static std::int64_t property_of(const NastranCard& card) {
     return nastran_integer_or(card, 1, nastran_integer(card, 0));
   }
@@ -230,8 +231,8 @@ class ModelReader {
   LeftOut& left_out_;
   NumberedMesh mesh_;
   std::map<std::int64_t, std::vector<NumberedElement>> parts_;     ///< by property
-  std::map<std::int64_t, std::vector<NumberedElement>> surfaces_;  ///< likewise
-  std::map<std::int64_t, std::vector<Place>> shells_;              ///< likewise
+  std::map<std::int64_t, std::vector<NumberedElement>> surfaces_;  ///< by property
+  std::map<std::int64_t, std::vector<Place>> shells_;              ///< by property
   std::set<std::int64_t> stiff_;                                   ///< properties of shells
 };
 

@@ -7,13 +7,13 @@
 
 namespace flexneck::mesher {
 
-/// A mesh from Nastran's bulk data.
+/// Imports a mesh from Nastran's bulk data.
 ///  - Parts are the solids of a property, "volume_<property>"; shells of a property are the faces
 ///    of the set "surface_<property>", without stiffness.
 ///  - Connections are those of nastran_connections.h.
-/// Left out and told are loads, damping and nodes of nothing, cards of sets that are not selected,
-/// a PARAM,WTMASS, with which densities are weights. What else changes the structure, shells with a
-/// PSHELL among it, counts as of the structure (LeftOut).
+/// Left out and reported are loads, damping, nodes without elements, cards of sets that are not
+/// selected, and PARAM,WTMASS, with which densities are weights. Other cards that change the
+/// structure, among them shells with a PSHELL, are added by LeftOut::add_to_structure().
 /// @throws InputError as import_mesh, with the line: nodes in coordinate systems of their own,
 /// INCLUDE, replicated cards, tabs in fixed fields, solids without some of their midside nodes.
 Mesh import_nastran(const ImportOptions& options, const Progress& progress, LeftOut& left_out);

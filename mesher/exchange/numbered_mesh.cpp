@@ -87,7 +87,7 @@ class Builder {
     mesh().face_sets.push_back(std::move(set));
   }
 
-  /// Nodes under the name of a surface join the surface's nodes.
+  /// Adds a node set. Nodes under the name of a surface join the surface's nodes.
   void add_nodes(const std::string& name, const std::set<std::int64_t>& numbers) {
     std::set<std::int32_t> nodes;
     for (const std::int64_t number : numbers) {

@@ -11,12 +11,12 @@
 namespace flexneck::mesher {
 
 /// Position of a part's material among the materials.
-/// @throws InputError if the part has none, or one that is not there.
+/// @throws InputError if the part has none, or one that does not exist.
 std::size_t material_index(const std::string& part, const std::vector<Material>& materials,
                            const std::map<std::string, std::string>& material_of_part);
 
-/// A material for a part that does not exist is a slip of the pen.
-/// @throws InputError naming it.
+/// Refuses materials of parts that do not exist.
+/// @throws InputError naming the part.
 void require_known_parts(const std::vector<std::string>& parts,
                          const std::map<std::string, std::string>& material_of_part);
 

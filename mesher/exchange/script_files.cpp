@@ -16,18 +16,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whose argument is a file that is read.
+/// Commands whose argument is a file that is read.
 constexpr std::array<std::string_view, 6> kReaders = {
     "Include", "Merge", "MergeWithBoundingBox", "Open", "ShapeFromFile", "ListFromFile"};
 
-/// A script with one of these words may depend on anything: commands, the environment, files of
-/// fields, whose names are looked for in several folders, plugins, of which some read files.
+/// Words that may make a script depend on anything: commands, the environment, files of fields,
+/// whose names are searched in several folders, plugins, some of which read files.
 constexpr std::array<std::string_view, 9> kUnknown = {
     "System",          "SystemCall", "NonBlockingSystemCall",
     "OnelabRun",       "GetEnv",     "FileExists",
     "ExternalProcess", "FileName",   "Plugin"};
 
-/// Meshes and shapes, in which no script is looked for; gmsh takes all else for one.
+/// Endings of mesh and shape files, which are not searched for script commands; gmsh takes all
+/// other files for scripts.
 constexpr std::array<std::string_view, 15> kData = {".msh", ".stl",  ".step", ".stp",  ".brep",
                                                     ".igs", ".iges", ".unv",  ".bdf",  ".nas",
                                                     ".vtk", ".med",  ".mesh", ".cgns", ".inp"};
@@ -43,12 +44,12 @@ bool is_data(const fs::path& file) {
   return is_one_of(kData, ending);
 }
 
-/// Words, texts in quotes and single marks of a script, without comments.
+/// Tokens of a script: words, quoted texts and single marks, without comments.
 class ScriptTokens {
  public:
   explicit ScriptTokens(std::string_view text) : rest_(text) {}
 
-  /// Empty at the end. A text keeps its first quote.
+  /// The next token; empty at the end. A text keeps its first quote.
   std::string_view next() {
     skip_blanks();
     if (rest_.empty()) return {};

@@ -5,11 +5,11 @@
 
 namespace flexneck::mesher {
 
-/// Has all files noted that gmsh reads for a script (geometry/foundation/files_read.h): the script,
-/// the options beside it, and what it names literally in Include, Merge, Open, ShapeFromFile and
-/// ListFromFile, from the folder of the file that names it; scripts among them likewise. A script
-/// that runs commands, asks its surroundings or puts names together is noted as one that reads what
-/// nobody knows.
+/// Notes all files that gmsh reads for a script (geometry/foundation/files_read.h): the script, the
+/// options file beside it, and the files it names literally in Include, Merge, Open, ShapeFromFile
+/// and ListFromFile, relative to the folder of the file that names them; included scripts
+/// recursively. A script that runs commands, queries its environment or composes names is noted
+/// with unknown reads.
 void note_script_files(const std::filesystem::path& script);
 
 }  // namespace flexneck::mesher

@@ -8,7 +8,7 @@
 
 namespace flexneck::mesher {
 
-/// Hands out the lines of a text without their ends.
+/// Returns the lines of a text one by one, without their ends.
 class TextLines {
  public:
   explicit TextLines(std::string_view text) : rest_(text) {}
@@ -23,14 +23,14 @@ class TextLines {
     return line;
   }
   std::string_view rest() const { return rest_; }
-  std::size_t number() const { return number_; }  ///< of the line handed out last, from 1
+  std::size_t number() const { return number_; }  ///< number of the line returned last, from 1
 
  private:
   std::string_view rest_;
   std::size_t number_ = 0;
 };
 
-/// Without blanks at either end.
+/// The text without blanks at either end.
 inline std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r";
   const std::size_t first = text.find_first_not_of(kBlanks);

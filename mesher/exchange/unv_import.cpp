@@ -22,7 +22,7 @@ ByLabel by_label(const std::vector<UnvElement>& elements) {
   return result;
 }
 
-/// Elements of the tables of material properties, as parts or surfaces.
+/// Groups of elements by their table of material properties, as parts or surfaces.
 std::vector<NumberedGroup> by_material(const ByLabel& elements, const std::string& prefix) {
   std::map<std::int64_t, std::vector<NumberedElement>> groups;
   for (const auto& [label, each] : elements) groups[each->material].push_back(each->element);

@@ -29,15 +29,16 @@ bool is_among(const std::array<int, N>& numbers, int number) {
   return std::find(numbers.begin(), numbers.end(), number) != numbers.end();
 }
 
-/// Elements by the number of I-deas' kind of element, its FE descriptor.
+/// Classifies elements by their FE descriptor, the number of I-deas' kind of element.
 bool is_beam(int descriptor) { return descriptor < 40; }
 bool is_shell(int descriptor) { return descriptor > 40 && descriptor < 100; }
 bool is_solid(int descriptor) {
   return (descriptor > 100 && descriptor < 120) || descriptor == 312 || descriptor == 313;
 }
 
-/// Plane stress, plane strain, plate, membrane, axisymmetric solid and thin shell number their
-/// linear and parabolic triangles and quadrilaterals alike. 312 and 313 are Salome's pyramids.
+/// The element kind of a descriptor. Plane stress, plane strain, plate, membrane, axisymmetric
+/// solid and thin shell number their linear and parabolic triangles and quadrilaterals alike. 312
+/// and 313 are Salome's pyramids.
 std::optional<ElementKind> kind_of(int descriptor) {
   switch (descriptor) {
     case 111:
@@ -89,8 +90,8 @@ std::optional<ElementKind> kind_of(int descriptor) {
   }
 }
 
-/// Parabolic elements count round: the lower face, a corner and the edge behind it in turn, the
-/// edges to the upper face, the upper face. Entry k is our local node that stands at position k.
+/// Node order. Parabolic elements list the lower face, where corners and edges alternate, then the
+/// edges to the upper face, then the upper face. Entry k is the local node at position k.
 std::vector<std::size_t> round_order(ElementKind kind) {
   const std::vector<std::size_t> edges = edge_order(kind);
   if (order_of(kind) == 1) return edges;
@@ -114,7 +115,7 @@ std::vector<std::size_t> round_order(ElementKind kind) {
   return order;
 }
 
-/// A line of a data set, for messages with its number in the file.
+/// A line of a data set, with its number in the file for messages.
 struct Line {
   std::string_view text;
   std::size_t number = 0;
@@ -125,7 +126,7 @@ struct Line {
 };
 using Lines = std::vector<Line>;
 
-/// Numbers between blanks; exponents may be written with a D.
+/// Numbers separated by blanks; exponents may be written with a D.
 template <class Number>
 std::vector<Number> numbers_in(const Line& line) {
   std::string text(line.text);
@@ -177,7 +178,8 @@ class Reader {
   }
 
  private:
-  /// A line of label, two coordinate systems and colour, one of the position.
+  /// Reads nodes. Each has a line with label, two coordinate systems and colour, and one with the
+  /// position.
   void add_nodes(const Lines& lines) {
     for (std::size_t l = 0; l < lines.size(); l += 2) {
       const std::vector<std::int64_t> head = numbers_in<std::int64_t>(lines[l]);
@@ -192,8 +194,9 @@ class Reader {
     }
   }
 
-  /// A line of label, descriptor, tables of physical and of material properties, colour and number
-  /// of nodes; for beams one of their sections; then the nodes, eight a line.
+  /// Reads elements. Each has a line with label, descriptor, tables of physical and of material
+  /// properties, colour and number of nodes; for beams a line with their sections; then the nodes,
+  /// eight a line.
   void add_elements(const Lines& lines) {
     for (std::size_t l = 0; l < lines.size();) {
       const Line& first = lines[l];
@@ -241,8 +244,9 @@ class Reader {
     }
   }
 
-  /// A line of eight numbers, the last one that of the members; the name; the members, two a line:
-  /// kind (7 a node, 8 an element), label and two numbers that do not matter here.
+  /// Reads groups. Each has a line of eight numbers, the last one the number of members; a line
+  /// with the name; the members, two a line: kind (7 a node, 8 an element), label and two numbers
+  /// that are not needed.
   void add_groups(const Lines& lines) {
     for (std::size_t l = 0; l < lines.size();) {
       const Line& first = lines[l];
@@ -281,7 +285,8 @@ class Reader {
     return model_.groups.emplace_back(UnvGroup{name, {}, {}});
   }
 
-  /// The second line begins with what a metre counts.
+  /// Compares the unit of length. The second line begins with the number of the file's units in a
+  /// metre.
   void compare_units(const Lines& lines) {
     if (lines.size() < 2) return;
     const std::vector<double> factors = numbers_in<double>(lines[1]);

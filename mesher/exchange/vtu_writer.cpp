@@ -14,7 +14,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the files say LittleEndian");
 
-/// The document before the data, and the data that it names by their offsets.
+/// The XML document before the data, and the data, which it references by their offsets.
 class Document {
  public:
   void line(const std::string& text) { head_ += text + "\n"; }

@@ -10,17 +10,17 @@
 
 namespace flexneck::mesher {
 
-/// Numbers at each node, (n, components), row-major: a vector, a scalar, or a tensor of nine.
+/// A field at the nodes, (n, components), row-major: a vector, a scalar, or a tensor of nine.
 struct NodeVectors {
   std::string name;
   std::span<const double> values;
   int components = 3;
 };
 
-/// Writes a mesh as unstructured grids of VTK (.vtu, XML with raw appended data), which ParaView,
+/// Writes a mesh as an unstructured grid of VTK (.vtu, XML with raw appended data), which ParaView,
 /// VTK and meshio read: elements in VTK's order of nodes, with the numbers of their part and
 /// material ("part", "material"; from 0, in the order of parts_of() and Mesh::materials). Nodes
-/// that VTK does not know, behind the 13 of a pyramid, are points of no cell.
+/// that VTK does not know, beyond the 13 of a pyramid, are points of no cell.
 class VtuWriter {
  public:
   explicit VtuWriter(const Mesh& mesh);
@@ -37,13 +37,13 @@ class VtuWriter {
   std::vector<std::int32_t> parts_, materials_;
 };
 
-/// The nodes' places, (n, 3), as the writer takes them.
+/// Positions of the nodes, (n, 3), as the writer takes them.
 std::span<const double> node_coordinates(const Mesh& mesh);
 
-/// A collection of such files over time (.pvd), which ParaView plays.
+/// A file of a collection over time (.pvd), which ParaView plays.
 struct TimedFile {
   double time_s = 0;
-  std::string name;  ///< from the folder of the collection
+  std::string name;  ///< path relative to the folder of the collection
 };
 /// @throws InputError if the folder cannot be written.
 void write_pvd(const std::filesystem::path& path, const std::vector<TimedFile>& files);

@@ -10,15 +10,15 @@
 
 namespace flexneck::mesher {
 
-/// A dataset of an HDF5 file that lies beside the document.
+/// A dataset of an HDF5 file in the folder of the document.
 struct XdmfItem {
   std::filesystem::path file;  ///< only its name is written
   std::string dataset;
   Shape shape;             ///< its extents
-  bool is_double = false;  ///< or 32-bit integers
+  bool is_double = false;  ///< doubles, otherwise 32-bit integers
 };
 
-/// An XDMF document, version 2, for ParaView: grids side by side, the heavy data elsewhere. It is
+/// An XDMF document, version 2, for ParaView: several grids, whose data are in HDF5 files. It is
 /// written by commit(), or not at all.
 class XdmfDocument {
  public:
@@ -29,7 +29,7 @@ class XdmfDocument {
   /// @param positions (n, 3)
   void begin_grid(const std::string& name, ElementKind kind, const XdmfItem& connectivity,
                   const XdmfItem& positions);
-  /// @param nodes (k): a point for each
+  /// @param nodes (k): indices of the points
   void begin_points(const std::string& name, const XdmfItem& nodes, const XdmfItem& positions);
   void end_grid();
 
@@ -52,12 +52,13 @@ class XdmfDocument {
   OutputFile file_;
 };
 
-/// The part, and the kind where the part has elements of several.
+/// Name of a block's grid: the part, with the kind if the part has elements of several.
 std::string grid_name(const Mesh& mesh, const ElementBlock& block);
 
-/// What ParaView reads besides a file, in an order of its own: "mesh_view.h5" beside "mesh.h5".
+/// Path of the file with data that ParaView reads in another order: "mesh_view.h5" beside
+/// "mesh.h5".
 std::filesystem::path view_file(const std::filesystem::path& file);
-/// Where write_xdmf() puts the elements of a block.
+/// Dataset into which write_xdmf() writes the elements of a block.
 XdmfItem view_connectivity(const std::filesystem::path& mesh_file, const ElementBlock& block);
 
 }  // namespace flexneck::mesher

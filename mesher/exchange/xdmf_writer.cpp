@@ -66,7 +66,7 @@ class XdmfWriter {
   XdmfDocument xdmf_;
 };
 
-/// The connectivity of a block in the order that VTK wants, as far as it knows the nodes.
+/// The connectivity of a block in VTK's node order, without nodes that VTK does not know.
 std::vector<std::int32_t> reordered(const ElementBlock& block) {
   const std::vector<std::size_t> order = edge_order(block.kind);
   const auto shown = std::span(order).first(traits_of(block.kind).xdmf_nodes);

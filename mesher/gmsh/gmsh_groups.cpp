@@ -19,7 +19,7 @@ std::string entity_name(int dimension) {
   return kEntityNames.at(static_cast<std::size_t>(dimension));
 }
 
-/// Node orders are gmsh's.
+/// The kind of a gmsh element type. Node orders are gmsh's.
 std::optional<ElementKind> kind_of(int gmsh_type) {
   for (const ElementKind kind : element_kinds())
     if (traits_of(kind).gmsh_type == gmsh_type) return kind;
@@ -49,10 +49,10 @@ void append_nodes(const EntityElements& elements, std::vector<std::size_t>& tags
   for (const auto& nodes : elements.nodes) tags.insert(tags.end(), nodes.begin(), nodes.end());
 }
 
-/// For gmsh all entities of a dimension, or all dimensions.
+/// Tag by which gmsh denotes all entities of a dimension, or all dimensions.
 constexpr int kAllEntities = -1;
 
-/// Of the elements of a dimension, ascending.
+/// Tags of the nodes of all elements of a dimension, ascending.
 std::vector<std::size_t> node_tags_in(int dimension) {
   std::vector<std::size_t> tags;
   append_nodes(elements_of_entity(dimension, kAllEntities), tags);
@@ -74,7 +74,7 @@ std::vector<GmshGroup> groups_by_entity(int dimension) {
   return groups;
 }
 
-/// Groups of one name are one.
+/// Adds a group. Groups of the same name are merged.
 void add_group(GmshGroup group, std::vector<GmshGroup>& groups) {
   auto known = std::find_if(groups.begin(), groups.end(),
                             [&](const GmshGroup& other) { return other.name == group.name; });

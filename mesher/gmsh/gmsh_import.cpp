@@ -22,10 +22,10 @@
 namespace flexneck::mesher {
 namespace {
 
-/// What OpenCASCADE calls a shape in a STEP file that has no name.
+/// Name that OpenCASCADE gives to an unnamed shape in a STEP file.
 constexpr std::string_view kNoName = "Open CASCADE STEP translator";
 
-/// Part names of volumes: the last piece of the label if no other volume has it, else the tag.
+/// Part names of volumes: the last component of the label if no other volume has it, else the tag.
 std::map<int, std::string> volume_names(const gmsh::vectorpair& volumes) {
   std::map<int, std::string> names;
   std::multiset<std::string> all;
@@ -42,7 +42,8 @@ std::map<int, std::string> volume_names(const gmsh::vectorpair& volumes) {
   return names;
 }
 
-/// Volumes that touch get common faces, or else they would not hold together. Their tags stay.
+/// Makes volumes that touch share their faces, without which they would be unconnected. Their tags
+/// stay.
 void glue(const gmsh::vectorpair& volumes) {
   if (volumes.size() < 2) return;
   gmsh::vectorpair pieces;
@@ -67,7 +68,8 @@ void name_groups(const std::map<int, std::string>& volumes) {
   }
 }
 
-/// What the shapes of a dimension measure: m, m^2 or m^3 where the file is in metres.
+/// Total length, area or volume of the shapes of a dimension: m, m^2 or m^3 if the file is in
+/// metres.
 double measure_of_all(int dim) {
   gmsh::vectorpair shapes;
   gmsh::model::getEntities(shapes, dim);
@@ -80,11 +82,11 @@ double measure_of_all(int dim) {
   return sum;
 }
 
-/// Of 10-node tetrahedra whose edges are as long as a number of the shape, within a factor of two
-/// of bars with holes.
-/// @param size  0: a tenth of the shape's diagonal, as gmsh takes it
+/// Estimated number of nodes of a mesh of 10-node tetrahedra with edges of length `size`; correct
+/// within a factor of two for bars with holes.
+/// @param size  in the shape's unit; 0: a tenth of the shape's diagonal, which is gmsh's default
 double estimated_nodes(double size) {
-  constexpr std::array kNodesPerEdgeToThe = {0.0, 2.0, 5.0, 7.0};  // the dimension
+  constexpr std::array kNodesPerEdgeToThe = {0.0, 2.0, 5.0, 7.0};  // indexed by the dimension
   if (size == 0) {
     std::array<double, 3> low{};
     std::array<double, 3> high{};
@@ -112,20 +114,21 @@ void mesh_shape(const CheckedCopy& copy, const ImportOptions& options, double si
   const std::map<int, std::string> names = volume_names(volumes);
   glue(volumes);
   name_groups(names);
-  if (size > 0) {  // without a size at its points gmsh takes a tenth of the shape
+  if (size > 0) {  // gmsh's default is a tenth of the shape's diagonal
     gmsh::vectorpair points;
     gmsh::model::getEntities(points, 0);
     gmsh::model::mesh::setSize(points, size);
     gmsh::option::setNumber("Mesh.MeshSizeMax", size);
   }
-  gmsh::option::setNumber("Mesh.Algorithm3D", 1);  // the one that repeats itself from run to run
+  gmsh::option::setNumber("Mesh.Algorithm3D", 1);  // the algorithm that gives the same mesh in
+                                                   // every run
   gmsh::option::setNumber("Mesh.ElementOrder", 2);
   gmsh::option::setNumber("Mesh.HighOrderOptimize", 1);
   gmsh::model::mesh::generate(3);
 }
 
-/// Names by $PhysicalNames: lines `dimension tag "name"`, text in binary files too. gmsh forgets
-/// the name of a group where another one of its dimension has it already.
+/// Group names in $PhysicalNames: lines `dimension tag "name"`, text in binary files too. gmsh
+/// forgets the name of a group if another one of its dimension already has it.
 GroupNames names_in(const std::string& contents) {
   GroupNames names;
   const std::size_t begin = contents.find("\n$PhysicalNames");
@@ -142,7 +145,8 @@ GroupNames names_in(const std::string& contents) {
   return names;
 }
 
-/// Zero of a type that gmsh does not know, with which it refuses the file.
+/// Dimension of an element type; zero for a type that gmsh does not know, for which it refuses the
+/// file.
 int dimension_of(int element_type, GmshSession& session) {
   int dimension = 0;
   session.errors_of([&] { dimension = gmsh_element_type(element_type).dimension; });
@@ -152,9 +156,9 @@ int dimension_of(int element_type, GmshSession& session) {
 /// Number of a group's elements, and the sum of hashes of their nodes.
 using Elements = std::pair<std::size_t, std::size_t>;
 
-/// gmsh groups elements by the shapes that they lie on. Where a text of version 2 gives elements of
-/// one shape to different groups, each group would have them all: $Elements has lines `number type
-/// tags group shape … nodes`, for each group anew.
+/// Refuses files that assign elements of one shape to different groups. gmsh groups elements by the
+/// shapes on which they lie, so each group would have them all. In text of version 2, $Elements has
+/// lines `number type tags group shape … nodes`, repeated for each group.
 void require_whole_shapes(const std::string& contents, GmshSession& session) {
   std::istringstream lines(contents);
   std::string line;

@@ -7,8 +7,8 @@
 
 namespace flexneck::mesher {
 
-/// Lets gmsh read a checked mesh, or mesh a checked shape. Lengths in m. What a mesh has beside its
-/// solids is added to `left_out`.
+/// Lets gmsh read a checked mesh, or mesh a checked shape. Lengths in m. Content of a mesh other
+/// than its solids is added to `left_out`.
 /// @throws InputError if gmsh cannot read or mesh it, or as import_gmsh_mesh.
 Mesh import_with_gmsh(const CheckedCopy& copy, const ImportOptions& options, LeftOut& left_out);
 

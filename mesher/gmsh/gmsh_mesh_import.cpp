@@ -17,9 +17,9 @@
 namespace flexneck::mesher {
 namespace {
 
-/// gmsh follows an edge in the order of its end points' addresses, so the last bit of a midside
-/// node depends on the heap. Positions are rounded to 2^-36 (1.5e-11) of the largest coordinate, so
-/// that equal input gives equal bytes.
+/// Rounds the positions. gmsh follows an edge in the order of its end points' addresses, so the
+/// last bit of a midside node depends on the heap. Positions are rounded to 2^-36 (1.5e-11) of the
+/// largest coordinate, so that equal input gives equal bytes.
 void round_off_noise(std::vector<std::array<double, 3>>& positions) {
   double largest = 0;
   for (const auto& x : positions) {
@@ -43,7 +43,7 @@ class NodeNumbering {
     tags_.erase(std::unique(tags_.begin(), tags_.end()), tags_.end());
   }
 
-  /// @throws InputError if a tag is none of a part's.
+  /// @throws InputError if a tag belongs to no node of a part.
   std::vector<std::int32_t> indices_of(const std::vector<std::size_t>& tags,
                                        const std::string& label) const {
     std::vector<std::int32_t> indices;
@@ -89,7 +89,7 @@ void add_face_sets(Mesh& mesh, const NodeNumbering& numbering, GmshSource source
   }
 }
 
-/// Surfaces, curves and points of one name are one node set.
+/// Adds the node sets. Surfaces, curves and points of the same name form one node set.
 void add_node_sets(Mesh& mesh, const NodeNumbering& numbering, GmshSource source,
                    const GroupNames& names) {
   for (const int dimension : {1, 0}) {

@@ -9,12 +9,12 @@
 
 namespace flexneck::mesher {
 
-/// Imports the mesh of gmsh's current model: blocks per physical volume in the order of their
-/// tags, one for each kind; a face set per name of physical surfaces; a node set per name of
-/// physical surfaces, curves and points. Nodes are those of the volume elements,
-/// in the order of gmsh's tags. Faces point out of the part that they bound. A script's positions
-/// are rounded to 1.5e-11 of the largest, a file's stay as they are.
-/// @param names of groups to which gmsh gives none
+/// Imports the mesh of gmsh's current model: blocks per physical volume in the order of their tags,
+/// one for each kind; a face set per name of physical surfaces; a node set per name of physical
+/// surfaces, curves and points. Nodes are those of the volume elements, in the order of gmsh's
+/// tags. Faces point out of the part that they bound. Positions of a script's mesh are rounded to
+/// 1.5e-11 of the largest, those of a file are kept.
+/// @param names of groups whose names gmsh has lost
 /// @throws InputError if a script's physical group has no name, a group has no elements or elements
 /// of a kind that a mesh cannot hold, a volume is in no or several physical volumes, a part has no
 /// material, or a surface, curve or point lies on no part.

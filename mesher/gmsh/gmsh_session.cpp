@@ -15,7 +15,7 @@
 namespace flexneck::mesher {
 namespace {
 
-/// gmsh itself is one per process and its API 4.8 cannot say whether it runs.
+/// gmsh has one state per process, and its API 4.8 cannot tell whether it is initialised.
 std::atomic_flag gmsh_in_use;
 
 void add_unique(std::vector<std::string>& errors, std::string error) {
@@ -25,7 +25,7 @@ void add_unique(std::vector<std::string>& errors, std::string error) {
   }
 }
 
-/// Each line of this kind once, without its prefix.
+/// The logged lines of this kind, each once, without their prefix.
 std::vector<std::string> logged(std::string_view prefix) {
   std::vector<std::string> log;
   gmsh::logger::get(log);
@@ -38,7 +38,7 @@ std::vector<std::string> logged(std::string_view prefix) {
 
 bool is_failure(const std::string& warning) { return warning.find("failed") != std::string::npos; }
 
-/// gmsh's own word where C would return a null pointer.
+/// True for gmsh's error message after a failed allocation.
 bool is_want_of_memory(const std::string& error) { return error.starts_with("Out of memory"); }
 
 }  // namespace
@@ -57,7 +57,7 @@ GmshSession::~GmshSession() {
   try {
     gmsh::finalize();
   } catch (...) {
-    // Nothing is left to save.
+    // A destructor must not throw, and nothing is left to save.
   }
   gmsh_in_use.clear();
 }

@@ -18,10 +18,11 @@ class GmshSession {
   GmshSession& operator=(const GmshSession&) = delete;
 
   /// Runs `action` and collects the errors that gmsh reports meanwhile, whether it throws or only
-  /// logs them. Returns them joined by "; ", empty if there were none. Want of memory passes.
+  /// logs them. Returns them joined by "; ", empty if there were none. Exceptions for lack of
+  /// memory pass.
   std::string errors_of(const std::function<void()>& action);
 
-  /// What gmsh has failed to do in the last action, and went on: the mesh may be another than asked
+  /// Failures in the last action after which gmsh went on: the mesh may differ from the one asked
   /// for.
   const std::vector<std::string>& failures() const { return failures_; }
 

@@ -11,7 +11,7 @@
 namespace flexneck::mesher {
 namespace {
 
-/// gmsh reads a copy.
+/// Reads a file with gmsh, from a checked copy.
 Mesh read_with_gmsh(const ImportOptions& options, const Progress& /*progress*/, LeftOut& left_out) {
   return import_with_gmsh(CheckedCopy(options.file), options, left_out);
 }

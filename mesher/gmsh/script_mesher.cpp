@@ -30,7 +30,8 @@ void open_script(GmshSession& session, const std::filesystem::path& script) {
   if (!errors.empty()) throw InputError(script.string() + ": gmsh refuses the script: " + errors);
 }
 
-/// gmsh scales by these when it writes files, not what it hands over.
+/// Refuses scaling factors: gmsh applies them when it writes files, not to the mesh that its API
+/// returns.
 void refuse_scaling(const std::filesystem::path& script) {
   for (const std::string option : {"Mesh.ScalingFactor", "Geometry.ScalingFactor"}) {
     double factor = 1;
@@ -43,18 +44,19 @@ void refuse_scaling(const std::filesystem::path& script) {
 }
 
 /// ONELAB names of the constants that the script declares, by the constant's own name: the part of
-/// the ONELAB name behind the last '/'.
+/// the ONELAB name after the last '/'.
 std::map<std::string, std::string> declared_constants() {
   std::vector<std::string> names;
   gmsh::onelab::getNames(names);
   std::map<std::string, std::string> declared;
   for (const std::string& name : names) {
-    const bool is_of_gmsh = name.starts_with("Gmsh/");  // what it tells of the model
+    const bool is_of_gmsh = name.starts_with("Gmsh/");  // gmsh's own information on the model
     if (!is_of_gmsh) declared[name.substr(name.rfind('/') + 1)] = name;
   }
   return declared;
 }
 
+/// The ONELAB name of a constant.
 /// @throws InputError if the script does not declare the constant.
 std::string onelab_name(const std::map<std::string, std::string>& declared,
                         const std::string& constant, const std::filesystem::path& script) {
@@ -70,7 +72,8 @@ std::string onelab_name(const std::map<std::string, std::string>& declared,
   }
 }
 
-/// Only a script that has run says which constants it declares, so it runs again with their values.
+/// Runs the script. Only after a run are the constants that it declares known, so it runs again
+/// with their values.
 void run_script(GmshSession& session, const ScriptMeshOptions& options) {
   if (!std::ifstream(options.script).good()) {
     throw InputError(options.script.string() + ": the geometry script cannot be read");
@@ -108,7 +111,7 @@ void generate(GmshSession& session, const ScriptMeshOptions& options) {
     if (element == ElementKind::tet10) {
       gmsh::option::setNumber("Mesh.RecombineAll", 0);
       gmsh::option::setNumber("Mesh.Recombine3DAll", 0);
-      gmsh::option::setNumber("Mesh.Algorithm3D", 1);  // others differ from run to run
+      gmsh::option::setNumber("Mesh.Algorithm3D", 1);  // other algorithms differ from run to run
     }
     gmsh::model::mesh::generate(3);
   });

@@ -10,9 +10,9 @@
 namespace flexneck::mesher {
 namespace {
 
-/// A vector shorter than this share of another one is rounding.
+/// Fraction of another vector below which a vector is only rounding.
 constexpr double kNothing = 1e-9;
-/// Differences of coordinates below this share of them are rounding.
+/// Fraction of the coordinates below which their difference is only rounding.
 constexpr double kDigits = 4 * std::numeric_limits<double>::epsilon();
 
 }  // namespace

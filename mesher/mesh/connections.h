@@ -10,7 +10,8 @@
 
 namespace flexneck::mesher {
 
-// Names are what messages say, with the noun: "coupling 'tip'", "RBE2 5", "*EQUATION in line 17".
+// The names are used in messages and contain the noun: "coupling 'tip'", "RBE2 5", "*EQUATION in
+// line 17".
 
 /// A point beside the nodes that moves with three translations and three rotations: the reference
 /// of a rigid coupling, or a mass of its own.
@@ -19,8 +20,8 @@ struct ReferencePoint {
   std::array<double, 3> position_m{};
 };
 
-/// Nodes that follow a reference point as a rigid body, u = t + theta x (x - point), in some
-/// directions.
+/// Rigid coupling: nodes that follow a reference point as a rigid body, u = t + theta x (x -
+/// point), in some directions.
 struct Coupling {
   std::string name;
   std::int32_t point = 0;  ///< among the reference points
@@ -28,46 +29,48 @@ struct Coupling {
   std::array<bool, 3> directions = {true, true, true};  ///< x, y, z
 };
 
-/// Nodes that do not move along some axes.
+/// Nodes that are fixed along some axes.
 struct Support {
   std::string name;
   std::vector<std::int32_t> nodes;
-  std::array<bool, 3> directions = {true, true, true};  ///< of the axes
+  std::array<bool, 3> directions = {true, true, true};  ///< which of the axes are fixed
   AxisSystem axes = {};
 };
 
 /// A term of an equation: coefficients times the three degrees of freedom of a site. Sites are the
-/// nodes, then of each reference point its translation and its rotation, see `translation_site()`.
+/// nodes, then for each reference point its translation and its rotation, see `translation_site()`.
 struct Term {
   std::int32_t site = 0;
   std::array<double, 3> coefficients{};
 };
 
-/// The sum of the terms is zero (multi-point constraint). The first one is dependent: its largest
-/// coefficient is that of the degree of freedom which the others determine. Of one term: a support.
+/// Multi-point constraint: the sum of the terms is zero. The first term is dependent: its largest
+/// coefficient belongs to the degree of freedom that the others determine. An equation of one term
+/// is a support.
 struct Equation {
   std::string name;
   std::vector<Term> terms;
 };
 
-/// Energy (1/2) k e^2 with the elongation e, the sum of the terms. Of one term: a spring to ground.
+/// Energy (1/2) k e^2 with the elongation e, the sum of the terms. A spring of one term acts to
+/// ground.
 struct Spring {
   std::string name;
   std::vector<Term> terms;
   double stiffness = 0;  ///< N/m; N m if the terms are rotations
 };
 
-/// A rigid body at a node, which takes its mass alone, or at a reference point.
+/// A rigid body at a reference point, or at a node, where only its mass acts.
 struct PointMass {
   std::string name;
   std::int32_t site = 0;  ///< a node, or the translation of a reference point
   double mass_kg = 0;
-  std::array<double, 3> center_m{};  ///< from the point; zero at a node
-  /// About the centre: xx, yy, zz, xy, xz, yz of the tensor; zero at a node.
+  std::array<double, 3> center_m{};  ///< relative to the point; zero at a node
+  /// Inertia tensor about the centre: xx, yy, zz, xy, xz, yz; zero at a node.
   std::array<double, 6> inertia_kg_m2{};
 };
 
-/// What holds, joins and loads nodes beside the elements.
+/// Supports, couplings, equations, springs and masses of a mesh.
 struct Connections {
   std::vector<ReferencePoint> points;
   std::vector<Coupling> couplings;
@@ -80,7 +83,7 @@ struct Connections {
     return points.empty() && couplings.empty() && supports.empty() && equations.empty() &&
            springs.empty() && masses.empty();
   }
-  /// "2 couplings, 1 spring": of what there is, for messages.
+  /// Text for messages with the numbers of all connections, such as "2 couplings, 1 spring".
   std::string text() const;
 };
 
@@ -91,8 +94,8 @@ inline std::int32_t rotation_site(std::size_t node_count, std::int32_t point) {
   return translation_site(node_count, point) + 1;
 }
 
-/// Indices in range, nodes ascending, names unique among points, a coupling with nodes and a
-/// direction, supports likewise, terms that are not zero, springs and masses that are physical: a
+/// Checks that indices are in range, nodes ascending, names unique among points, couplings and
+/// supports have nodes and a direction, terms are not zero, springs and masses are physical: a
 /// positive stiffness, a mass that is not negative, an inertia without negative principal moments.
 /// @throws InputError naming the first violation.
 void check(const Connections& connections, std::size_t node_count);

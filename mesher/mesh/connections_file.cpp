@@ -28,7 +28,8 @@ void write_names(Hdf5Writer& file, const std::string& group, const std::vector<I
   file.write(group + "names", names);
 }
 
-/// Lists of different lengths, one behind the other: offsets (items + 1) and entries.
+/// Writes lists of different lengths, concatenated: offsets (items + 1) and entries. Returns the
+/// entries.
 template <typename Item, typename Entry>
 std::vector<Entry> write_lists(Hdf5Writer& file, const std::string& group,
                                const std::vector<Item>& items, std::vector<Entry> Item::*list) {
@@ -72,7 +73,8 @@ std::vector<std::string> names_in(const Hdf5Reader& file, const std::string& gro
                                    : std::vector<std::string>();
 }
 
-/// @param entries that the offsets share out
+/// Reads the offsets of concatenated lists.
+/// @param entries total length of the lists
 std::vector<std::int32_t> read_offsets(const Hdf5Reader& file, const std::string& group,
                                        std::size_t items, std::size_t entries) {
   const std::string dataset = group + "offsets";
@@ -193,7 +195,7 @@ std::vector<Support> read_supports(const Hdf5Reader& file) {
     system.origin_m = Eigen::Vector3d(row<3>(origins, k).data());
     system.axes = Eigen::Matrix3d(row<9>(axes, k).data());
     system.is_cylindrical = cylindrical[k] != 0;
-    constexpr double kUnit = 1e-6;  // files may hold axes of single precision
+    constexpr double kUnit = 1e-6;  // axes in files may be of single precision
     if (!(system.axes.transpose() * system.axes).isIdentity(kUnit)) {
       file.refuse(group + "axes", "expected three unit vectors at right angles to one another");
     }

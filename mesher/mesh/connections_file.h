@@ -6,9 +6,10 @@
 
 namespace flexneck::mesher {
 
-/// The group /connections of a mesh file (README.md); nothing is written if there are none.
+/// Writes the group /connections of a mesh file (README.md); nothing if there are none.
 void write_connections(Hdf5Writer& file, const Connections& connections);
-/// @throws InputError as Hdf5Reader, and for lists whose lengths do not go together.
+/// Reads the group /connections.
+/// @throws InputError as Hdf5Reader, and for lists whose lengths do not fit together.
 Connections read_connections(const Hdf5Reader& file);
 
 }  // namespace flexneck::mesher

@@ -7,7 +7,7 @@
 
 namespace flexneck::mesher {
 
-/// Union-find over 0 … n - 1. The smallest member stands for its set.
+/// Union-find over 0 … n - 1. The smallest member represents its set.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t n) : parent_(n) {

@@ -11,7 +11,8 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-// Nodes of the kinds with most nodes. Kinds with fewer have the first of them, in the same order.
+// Nodes of the kinds with the most nodes of each shape. Kinds with fewer have the first of them, in
+// the same order.
 
 constexpr std::array<Point, 27> kHexahedronNodes = {{
     // corners
@@ -132,8 +133,8 @@ constexpr std::array<Point, 6> kTriangleNodes = {{
     {0, 0.5, 0},
 }};
 
-/// Serendipity elements have the monomials whose superlinear degree, the sum of the exponents above
-/// one, is at most two (Arnold and Awanou, Found. Comput. Math. 11 (2011) 337).
+/// True for the monomials of serendipity elements: their superlinear degree, the sum of the
+/// exponents above one, is at most two (Arnold and Awanou, Found. Comput. Math. 11 (2011) 337).
 constexpr bool is_serendipity(const Exponents& e) {
   int degree = 0;
   for (const int exponent : e) degree += exponent > 1 ? exponent : 0;
@@ -215,7 +216,7 @@ static_assert(
 
 using Corners = std::vector<std::size_t>;
 
-/// Corners of the sides, counter-clockwise from outside.
+/// Corners of the facets, counter-clockwise from outside.
 std::vector<Corners> facet_corners(ReferenceShape shape) {
   switch (shape) {
     case ReferenceShape::hexahedron:
@@ -231,7 +232,7 @@ std::vector<Corners> facet_corners(ReferenceShape shape) {
   }
 }
 
-/// The node in the middle of some others, if the kind has one there.
+/// Appends the node in the middle of some others, if the kind has one there.
 void append_middle(std::span<const Point> nodes, const Corners& of, Corners& side) {
   Point middle{};
   for (const std::size_t corner : of) {

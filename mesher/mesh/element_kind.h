@@ -26,11 +26,12 @@ enum class ElementKind {
   quad8,      ///< serendipity quadrilateral, face of hex20, prism15 and pyramid13
   quad9,      ///< biquadratic quadrilateral, face of hex27, prism18 and pyramid14
   tri3,       ///< linear triangle, face of linear prisms, tetrahedra and pyramids
-  tri6,       ///< quadratic triangle, face of the others
+  tri6,       ///< quadratic triangle, face of the quadratic and serendipity ones
 };
 
 std::string_view name_of(ElementKind kind);
-/// @throws InputError if no kind has this name.
+/// The kind of this name.
+/// @throws InputError if there is none.
 ElementKind element_kind_from(std::string_view name);
 
 /// Reference elements: [-1, 1]^d, or the simplex xi, eta, zeta >= 0 with sum <= 1; the prism is the
@@ -38,26 +39,27 @@ ElementKind element_kind_from(std::string_view name);
 /// zeta = 1.
 enum class ReferenceShape { hexahedron, prism, tetrahedron, pyramid, quadrilateral, triangle };
 
-/// Exponents (a, b, c), each up to two, of a function xi^a eta^b zeta^c; of a pyramid
-/// (xi / w)^a (eta / w)^b w^max(a, b) zeta^c with w = 1 - zeta, which is a polynomial on each side
+/// Exponents (a, b, c), each up to two, of a function xi^a eta^b zeta^c; for a pyramid of (xi /
+/// w)^a (eta / w)^b w^max(a, b) zeta^c with w = 1 - zeta, which is a polynomial on each side
 /// (Bergot, Cohen and Durufle, J. Sci. Comput. 42 (2010) 345).
 using Exponents = std::array<int, 3>;
 
-/// All that is known of a kind. A new kind is an enumerator and a row of these in
-/// element_kind.cpp; what it can do in the analysis is said by the schemes of fe_modal/element.
+/// All properties of a kind. A new kind is an enumerator and a row of these in element_kind.cpp;
+/// the schemes of fe_modal/element define its use in the analysis.
 struct ElementTraits {
   ElementKind kind;
   std::string_view name;
   ReferenceShape shape;
   int order;
   std::span<const std::array<double, 3>> nodes;  ///< see reference_nodes()
-  bool (*spans)(const Exponents&);               ///< the functions that shape functions are made of
+  bool (*spans)(const Exponents&);               ///< true for the functions that span the shape
+                                                 ///< functions
   int gmsh_type;
-  int vtk_type;                                      ///< of VTK's files (vtkCellType.h)
-  std::string_view xdmf_topology;                    ///< of the XDMF model, version 2 and 3
-  std::span<const std::string_view> abaqus_types{};  ///< the first is written; the one in R is its
+  int vtk_type;                                      ///< in VTK's files (vtkCellType.h)
+  std::string_view xdmf_topology;                    ///< in the XDMF model, version 2 and 3
+  std::span<const std::string_view> abaqus_types{};  ///< the first is written; the one in R has
                                                      ///< reduced integration
-  /// The topology's; nodes behind them are not shown.
+  /// Number of nodes of the XDMF topology; further nodes are not shown.
   std::size_t xdmf_nodes = nodes.size();
 };
 const ElementTraits& traits_of(ElementKind kind);
@@ -73,18 +75,18 @@ ReferenceShape shape_of(ElementKind kind);
 std::span<const std::array<double, 3>> reference_nodes(ElementKind kind);
 inline std::size_t nodes_per_element(ElementKind kind) { return reference_nodes(kind).size(); }
 std::size_t corners_per_element(ElementKind kind);
-/// 3 for volumes, 2 for surfaces.
+/// Number of reference coordinates: 3 for volumes, 2 for surfaces.
 int dimension(ElementKind kind);
 /// 1 or 2: the degree of the complete polynomials among the shape functions.
 int order_of(ElementKind kind);
 
-/// A side of a volume element: its kind and its local nodes in the order of that kind, so that
+/// A facet of a volume element: its kind and its local nodes in the order of that kind, so that
 /// dx/dxi x dx/deta points outwards.
 struct ReferenceFacet {
   ElementKind kind;
   std::vector<std::size_t> nodes;
 };
-/// The sides of a volume element; none of a surface element.
+/// The facets of a volume element; none for a surface element.
 std::span<const ReferenceFacet> facets_of(ElementKind kind);
 
 }  // namespace flexneck::mesher

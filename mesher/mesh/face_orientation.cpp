@@ -14,7 +14,7 @@ namespace {
 
 using NodeList = std::vector<std::int32_t>;
 
-/// The faces of a block, to be found by their corners.
+/// Index of the faces of a block by their corners.
 class FaceIndex {
  public:
   FaceIndex(const FaceBlock& faces, std::size_t node_count) : on_faces_(node_count, false) {
@@ -29,7 +29,8 @@ class FaceIndex {
     std::sort(faces_.begin(), faces_.end());
   }
 
-  /// Faces with the corners of this side; empty for nearly every side of a mesh, at once.
+  /// Faces with the corners of this facet; quickly found to be none for nearly every facet of a
+  /// mesh.
   std::span<const std::pair<FacetKey, std::size_t>> find(
       const ReferenceFacet& side, std::span<const std::int32_t> element) const {
     const std::size_t corners = corners_per_element(side.kind);
@@ -44,12 +45,12 @@ class FaceIndex {
   }
 
  private:
-  std::vector<bool> on_faces_;  ///< by node: is it a corner of a face
+  std::vector<bool> on_faces_;  ///< by node: true if it is a corner of a face
   std::vector<std::pair<FacetKey, std::size_t>> faces_;
 };
 
-/// Each face as the first volume element with such a side sees it, in the order that makes the
-/// normal point out of it; empty if there is none.
+/// Nodes of each face in the order that makes the normal point out of the first volume element with
+/// such a facet; empty if there is none.
 std::vector<NodeList> outward_faces(const Mesh& mesh, const FaceBlock& faces) {
   const FaceIndex index(faces, mesh.nodes.size());
   std::vector<NodeList> outward(faces.size());
@@ -70,7 +71,8 @@ std::vector<NodeList> outward_faces(const Mesh& mesh, const FaceBlock& faces) {
   return outward;
 }
 
-/// The same face from another of its corners on: corners and edges turn by `steps`, a centre stays.
+/// The same face beginning with another of its corners: corners and edges rotate by `steps`, a
+/// centre node stays.
 NodeList turned(const NodeList& face, std::size_t corners, std::size_t steps) {
   NodeList result = face;
   for (std::size_t i = 0; i < 2 * corners && i < face.size(); ++i) {

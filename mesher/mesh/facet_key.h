@@ -10,10 +10,11 @@
 
 namespace flexneck::mesher {
 
-/// Corner nodes of a side in ascending order, which is the same for the elements on either side of
-/// it. A triangle's key begins with -1.
+/// Corner nodes of a facet in ascending order, which are the same for the elements on either side
+/// of it. A triangle's key begins with -1.
 using FacetKey = std::array<std::int32_t, 4>;
 
+/// Key of a facet with these corners.
 /// @param corners three or four, in any order
 inline FacetKey key_of_corners(std::span<const std::int32_t> corners) {
   FacetKey key;
@@ -23,11 +24,13 @@ inline FacetKey key_of_corners(std::span<const std::int32_t> corners) {
   return key;
 }
 
+/// Key of a face.
 /// @param nodes of the face, the corners first
 inline FacetKey key_of_face(ElementKind face_kind, std::span<const std::int32_t> nodes) {
   return key_of_corners(nodes.first(corners_per_element(face_kind)));
 }
 
+/// Key of an element's facet.
 /// @param nodes of the whole element
 inline FacetKey key_of_facet(const ReferenceFacet& side, std::span<const std::int32_t> nodes) {
   std::array<std::int32_t, 4> corners{};

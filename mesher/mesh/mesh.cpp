@@ -14,7 +14,7 @@
 namespace flexneck::mesher {
 namespace {
 
-/// Files may hold normals of single precision.
+/// Tolerance of the normals' length: files may hold them in single precision.
 constexpr double kUnitLength = 1e-6;
 
 [[noreturn]] void refuse(const std::string& problem) { throw InputError("mesh: " + problem); }
@@ -44,7 +44,7 @@ void check_indices(std::span<const std::int32_t> indices, std::size_t node_count
   }
 }
 
-/// Indices of elements or faces of one kind, which has `expected_dimension`.
+/// Checks the node indices of elements or faces of one kind, which has `expected_dimension`.
 void check_connectivity(std::span<const std::int32_t> indices, ElementKind kind,
                         int expected_dimension, std::size_t node_count, const std::string& what) {
   if (dimension(kind) != expected_dimension) {
@@ -58,7 +58,7 @@ void check_connectivity(std::span<const std::int32_t> indices, ElementKind kind,
   check_indices(indices, node_count, what);
 }
 
-/// Blocks of one part have one material and differ in kind.
+/// Checks that blocks of one part have the same material and different kinds.
 void check_parts(const Mesh& mesh) {
   std::vector<std::string> parts;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
@@ -162,7 +162,7 @@ void require_one_meaning(const NodeSet* nodes, const FaceSet* faces) {
                    "; rename one of them");
 }
 
-/// A node set where faces are needed.
+/// Refuses a node set where faces are needed.
 [[noreturn]] void refuse_faces(const Mesh& mesh, const NodeSet& set) {
   const FaceSet faces = faces_among(boundary_facets(mesh), set.name, [&](std::int32_t node) {
     return std::binary_search(set.nodes.begin(), set.nodes.end(), node);

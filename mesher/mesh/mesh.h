@@ -11,7 +11,7 @@
 
 namespace flexneck::mesher {
 
-/// Linear elastic, isotropic.
+/// A linear elastic, isotropic material.
 struct Material {
   std::string name;
   double youngs_modulus_Pa = 0;
@@ -30,7 +30,7 @@ struct ElementBlock {
   std::size_t size() const { return nodes.size() / nodes_per_element(kind); }
 };
 
-/// Nodes by name, ascending.
+/// A named set of nodes, ascending.
 struct NodeSet {
   std::string name;
   std::vector<std::int32_t> nodes;
@@ -44,21 +44,21 @@ struct FaceBlock {
   std::size_t size() const { return nodes.size() / nodes_per_element(kind); }
 };
 
-/// Faces of volume elements by name, a block for each kind that occurs.
+/// A named set of faces of volume elements, a block for each kind that occurs.
 struct FaceSet {
   std::string name;
   std::vector<FaceBlock> blocks;
 };
 
-/// A cut of zero width through a part: its two faces have nodes of their own, which lie on one
-/// another in pairs.
+/// A cut of zero width through a part: its two faces have nodes of their own, which coincide in
+/// pairs.
 struct Slit {
   std::string name;
-  bool tied = false;                           ///< the nodes of a pair move as one: a closed cut
-  std::vector<std::int32_t> lower;             ///< (p) nodes of the face that the normals leave
-  std::vector<std::int32_t> upper;             ///< (p) their partners on the other face
-  std::vector<std::array<double, 3>> normals;  ///< (p) unit, from the lower side to the upper
-  std::vector<double> areas_m2;  ///< (p) int N dA of each node; the tip has the rest of the cut
+  bool tied = false;                ///< the two nodes of a pair move as one: a closed cut
+  std::vector<std::int32_t> lower;  ///< (p) nodes of the face from which the normals point
+  std::vector<std::int32_t> upper;  ///< (p) their partners on the other face
+  std::vector<std::array<double, 3>> normals;  ///< (p) unit, from lower to upper
+  std::vector<double> areas_m2;                ///< (p) int N dA of each node; the tip has the rest
 };
 
 /// A conforming mesh with its materials and sets. Lengths in m, in the frame of the geometry.
@@ -71,8 +71,8 @@ struct Mesh {
   std::vector<Slit> slits;
   Connections connections;
 
-  /// A name means one set of nodes.
-  /// @throws InputError if there is none of that name, the message lists those there are; if a node
+  /// The node set of a name, or the nodes of the face set of that name.
+  /// @throws InputError if there is none of that name, with a list of the existing names; if a node
   /// set and a face set of that name have different nodes, with both counts.
   const NodeSet& node_set(const std::string& name) const;
   const FaceSet& face_set(const std::string& name) const;
@@ -84,9 +84,9 @@ std::vector<std::string> parts_of(const Mesh& mesh);
 /// The nodes of a face set under its name, ascending.
 NodeSet nodes_of(const FaceSet& faces);
 
-/// Checks what every consumer relies on: indices in range, no loose node, no empty block or set,
-/// unique names, one material a part, paired nodes in the same place with a unit normal, materials
-/// physical (E > 0, -1 < nu < 0.5, density > 0), connections as check(Connections) wants them.
+/// Checks that indices are in range, every node has an element, no block or set is empty, names are
+/// unique, each part has one material, paired nodes coincide and have a unit normal, materials are
+/// physical (E > 0, -1 < nu < 0.5, density > 0) and connections pass check(Connections).
 /// @throws InputError naming the first violation.
 void check(const Mesh& mesh);
 

@@ -12,7 +12,8 @@
 namespace flexneck::mesher {
 namespace {
 
-/// Members of a group come back in alphabetical order; this attribute keeps the mesh's own.
+/// HDF5 returns the members of a group in alphabetical order; this attribute keeps the mesh's
+/// order.
 const std::string kIndex = "index";
 
 using Vectors = std::vector<std::array<double, 3>>;
@@ -88,7 +89,7 @@ void write_slits(Hdf5Writer& file, const Mesh& mesh) {
 }
 
 /// Groups and datasets below `groups` that hold data, ordered by their attribute `index`, which
-/// counts from 0. A name in `groups` is that of a group.
+/// counts from 0. Names in `groups` are those of groups.
 std::vector<std::string> ordered_members(const Hdf5Reader& file,
                                          const std::vector<std::string>& groups) {
   std::map<std::int64_t, std::string> by_index;
@@ -107,7 +108,7 @@ std::vector<std::string> ordered_members(const Hdf5Reader& file,
   return objects;
 }
 
-/// What stands behind the last '/'.
+/// The part of a path after the last '/'.
 std::string last_name(const std::string& object) { return object.substr(object.rfind('/') + 1); }
 
 ElementKind kind_of(const Hdf5Reader& file, const std::string& dataset) {

@@ -11,17 +11,17 @@
 
 namespace flexneck::mesher {
 
-/// The layout is described in mesher/mesh/README.md.
+/// Format of a mesh file; the layout is described in mesher/mesh/README.md.
 inline constexpr FileFormat kMeshFormat{"flexneck mesh", 4, "flexneck mesh"};
-/// Of a mesh without connections, which readers of that version know too.
+/// Format of a mesh without connections, which readers of version 3 know too.
 inline constexpr FileFormat kMeshFormatWithoutConnections{"flexneck mesh", 3, "flexneck mesh"};
 
 struct MeshFile {
   Mesh mesh;
   Provenance provenance;
-  /// By their number of processes: the process of each element, blocks in the mesh's order.
+  /// By number of processes: the process of each element, blocks in the mesh's order.
   std::map<int, std::vector<std::int32_t>> partitions = {};
-  std::vector<std::int32_t> node_order = {};  ///< entry k: the node eliminated k-th; may be empty
+  std::vector<std::int32_t> node_order = {};  ///< entry k is the node eliminated k-th; may be empty
 };
 
 /// @throws InputError if the mesh fails check(), a partition does not fit its elements or the order

@@ -16,7 +16,7 @@
 namespace flexneck::mesher {
 namespace {
 
-/// Below this a scaled Jacobian is rounding: the element has no usable inverse map.
+/// Scaled Jacobian below which it is only rounding: the element has no usable inverse map.
 constexpr double kDegenerate = 1e-6;
 
 Eigen::Matrix3Xd node_points(ElementKind kind) {
@@ -28,7 +28,7 @@ Eigen::Matrix3Xd node_points(ElementKind kind) {
   return points;
 }
 
-/// Columns dx/dxi, dx/deta, dx/dzeta at point q.
+/// Jacobian with columns dx/dxi, dx/deta, dx/dzeta at point q.
 Eigen::Matrix3d jacobian_at(const Eigen::Matrix3Xd& x, const ShapeTable& table, Eigen::Index q) {
   Eigen::Matrix3d jacobian;
   for (Eigen::Index d = 0; d < 3; ++d) {
@@ -69,7 +69,8 @@ CornerEdges corner_edges(ElementKind kind) {
   }
 }
 
-/// NaN positions give NaN, which every comparison with a bound refuses.
+/// Smallest scaled determinant. NaN positions give NaN, which every comparison with a bound
+/// refuses.
 double scaled_determinant(const Eigen::Matrix3d& jacobian, const CornerEdges& edges) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const Eigen::Matrix3d& triad : edges.triads) {
@@ -103,7 +104,7 @@ std::vector<std::pair<Eigen::Index, Eigen::Index>> edges_of(ElementKind kind) {
     for (std::size_t c = 0; c < corners; ++c) {
       const std::size_t a = side.nodes[c];
       const std::size_t b = side.nodes[(c + 1) % corners];
-      // Both sides at an edge follow it, in opposite directions: take one.
+      // Both facets at an edge follow it, in opposite directions: take one.
       if (a < b) edges.emplace_back(a, b);
     }
   }
@@ -125,8 +126,8 @@ double aspect_ratio(const Eigen::Matrix3Xd& x,
 }  // namespace
 
 BlockMeasure measure(const Mesh& mesh, const ElementBlock& block) {
-  // The determinant of a triquadratic map has degree 5 in each direction, that of a quadratic one
-  // on the simplex the total degree 3: strength three is exact.
+  // The determinant of a triquadratic map has degree 5 in each direction, that of a quadratic map
+  // on the simplex the total degree 3: a rule of strength three is exact.
   const Quadrature rule = gauss_rule(block.kind, 3);
   const ShapeTable at_rule = tabulate(block.kind, rule.points);
   const ShapeTable at_nodes = tabulate(block.kind, node_points(block.kind));
@@ -165,7 +166,7 @@ std::vector<double> scaled_jacobians(const Mesh& mesh, const ElementBlock& block
 }
 
 double area_m2(const Mesh& mesh, const FaceBlock& faces) {
-  // The length of the normal is no polynomial on a curved face: use the finest rule there is.
+  // The length of the normal is not a polynomial on a curved face: use the finest rule available.
   const Quadrature rule = gauss_rule(faces.kind, 4);
   const ShapeTable table = tabulate(faces.kind, rule.points);
   double area = 0;

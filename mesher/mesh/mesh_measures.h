@@ -13,11 +13,11 @@ namespace flexneck::mesher {
 /// strength three and at the nodes.
 struct BlockMeasure {
   double volume_m3 = 0;  ///< exact for the second-order shape
-  /// Smallest triple product of the unit directions along the edges that meet in a corner, over
-  /// that of the ideal element: 1 for a box, a regular tetrahedron and an upright equilateral
+  /// Smallest triple product of the unit directions along the edges that meet in a corner, divided
+  /// by that of the ideal element: 1 for a box, a regular tetrahedron and an upright equilateral
   /// prism, 0 or less for an element that is degenerate or inverted.
   double smallest_scaled_jacobian = 0;
-  std::size_t worst_element = 0;  ///< where it occurs
+  std::size_t worst_element = 0;  ///< element with the smallest scaled Jacobian
   /// Largest ratio of an element's longest edge to its shortest, corner to corner.
   double max_aspect_ratio = 0;
 };
@@ -30,8 +30,9 @@ std::vector<double> scaled_jacobians(const Mesh& mesh, const ElementBlock& block
 double area_m2(const Mesh& mesh, const FaceBlock& faces);
 double area_m2(const Mesh& mesh, const FaceSet& faces);
 
-/// @throws ComputationError naming the part, the element and its place if an element is inverted or
-/// degenerate.
+/// Checks the shape of all elements.
+/// @throws ComputationError naming the part, the element and its position if an element is inverted
+/// or degenerate.
 void require_sound_elements(const Mesh& mesh);
 
 }  // namespace flexneck::mesher

@@ -17,14 +17,14 @@ struct PartSummary {
   double volume_m3 = 0;
   double mass_kg = 0;
   double smallest_scaled_jacobian = 0;  ///< as in mesh_measures.h
-  double max_aspect_ratio = 0;          ///< likewise
+  double max_aspect_ratio = 0;          ///< as in mesh_measures.h
 };
 
 struct MeshSummary {
   std::vector<PartSummary> parts;  ///< in the order of the mesh's blocks
   std::size_t elements = 0;
   std::size_t nodes = 0;
-  std::size_t degrees_of_freedom = 0;  ///< three a node, before any is fixed
+  std::size_t degrees_of_freedom = 0;  ///< three per node, before any is fixed
   double volume_m3 = 0;
   double mass_kg = 0;
   double smallest_scaled_jacobian = 0;

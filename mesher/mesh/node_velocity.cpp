@@ -26,7 +26,7 @@ bool same(const Slit& a, const Slit& b) {
   return a.name == b.name && a.tied == b.tied && a.lower == b.lower && a.upper == b.upper;
 }
 
-/// Name of the first that differs; "their number" if there are more of them.
+/// Name of the first entry that differs; "their number" if only the numbers of entries differ.
 template <typename Entry, typename NameOf>
 std::string difference(const std::vector<Entry>& a, const std::vector<Entry>& b,
                        const NameOf& name_of) {

@@ -7,16 +7,18 @@
 
 namespace flexneck::mesher {
 
-/// @throws InputError if one has other elements, faces or slits than the other: it tells which.
-/// Node sets may differ, since they may be chosen by distances: nothing is said of them.
+/// Checks that two meshes have the same elements, faces and slits. Node sets may differ, since they
+/// may be selected by distances.
+/// @throws InputError naming the difference.
 void require_same_topology(const Mesh& mesh, const Mesh& other);
 
-/// How the nodes move with a parameter, (3, n) in m per unit of it: the quotient of the positions'
-/// differences between the meshes of two of its values. Where positions are linear in it, it is
-/// exact; the middle of the two is the parameter's value then, for an error of second order.
-/// @param mesh whose nodes they are
+/// Derivative of the node positions with respect to a parameter, (3, n) in m per unit of it: the
+/// difference quotient of the positions of two meshes at two of its values. It is exact if
+/// positions are linear in the parameter; if the parameter's value is midway between the two, the
+/// error is of second order.
+/// @param mesh the mesh at the parameter's value
 /// @param width difference of the two values, not zero
-/// @throws InputError as require_same_topology, of either.
+/// @throws InputError as require_same_topology, for either mesh.
 Eigen::Matrix3Xd node_velocity(const Mesh& mesh, const Mesh& below, const Mesh& above,
                                double width);
 

@@ -16,10 +16,11 @@
 namespace flexneck::mesher {
 namespace {
 
-/// A plane passes between elements if no corner crosses it by more than this share of the size.
+/// Tolerance, as a fraction of the size, by which corners may cross a plane that passes between
+/// elements.
 constexpr double kOnPlane = 1e-6;
 
-/// Lowest and highest offset of an element's corners.
+/// Lowest and highest offset of an element's corners along the normal.
 std::pair<double, double> extent_along(const Mesh& mesh, const Eigen::Vector3d& normal,
                                        std::span<const std::int32_t> corners) {
   std::pair<double, double> extent = {HUGE_VAL, -HUGE_VAL};
@@ -31,7 +32,7 @@ std::pair<double, double> extent_along(const Mesh& mesh, const Eigen::Vector3d& 
   return extent;
 }
 
-/// Adds the sets and slits of the whole to one piece.
+/// Adds the sets and slits of the whole mesh to one submesh.
 class PieceBuilder {
  public:
   PieceBuilder(const Mesh& whole, const PieceOfElement& piece_of_element, std::int32_t piece)
@@ -45,7 +46,8 @@ class PieceBuilder {
     return std::all_of(nodes.begin(), nodes.end(), [&](std::int32_t n) { return of(n) >= 0; });
   }
 
-  /// Not where the piece has more nodes of the set: those at the edge of faces of other pieces.
+  /// Adds a face set, unless the submesh has more nodes in the node set of its name: those at the
+  /// edge of faces of other submeshes.
   void add_faces(FaceSet faces) {
     for (FaceBlock& block : faces.blocks) renumber(block.nodes);
     const std::vector<NodeSet>& sets = result_.mesh.node_sets;
@@ -56,7 +58,7 @@ class PieceBuilder {
     }
   }
 
-  /// Only those that belong to the piece.
+  /// Adds those nodes of the set that belong to the submesh.
   void add_nodes(const NodeSet& set) {
     NodeSet own{.name = set.name, .nodes = {}};
     for (const std::int32_t node : set.nodes) {
@@ -85,10 +87,10 @@ class PieceBuilder {
   }
 
   MeshPiece result_;
-  std::vector<std::int32_t> number_;  ///< in the piece, by node of the whole; -1 outside
+  std::vector<std::int32_t> number_;  ///< index in the submesh, by node of the whole; -1 outside
 };
 
-/// The faces of a set whose nodes all belong to the piece.
+/// The faces of a set whose nodes all belong to the submesh.
 FaceSet faces_of_piece(const FaceSet& set, const PieceBuilder& piece) {
   FaceSet own{.name = set.name, .blocks = {}};
   for (const FaceBlock& block : set.blocks) {
@@ -103,7 +105,7 @@ FaceSet faces_of_piece(const FaceSet& set, const PieceBuilder& piece) {
   return own;
 }
 
-/// Pairs of pieces with the faces between them; normals out of the first.
+/// Common faces of each pair of submeshes; normals point out of the first.
 using CommonFaces = std::map<std::pair<std::int32_t, std::int32_t>, std::vector<Facet>>;
 
 CommonFaces common_faces(const Mesh& mesh, const PieceOfElement& piece_of_element) {

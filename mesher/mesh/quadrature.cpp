@@ -38,7 +38,7 @@ std::vector<LinePoint> gauss_line(int n) {
   }
 }
 
-/// Points and weights of a rule while it is put together.
+/// Points and weights of a rule under construction.
 struct Points {
   std::vector<Eigen::Vector3d> places;
   std::vector<double> weights;
@@ -63,7 +63,7 @@ Points product_rule(int n, int dimension) {
   return rule;
 }
 
-/// The product rule on the square, mapped onto the triangle: a side shrinks to a point, and the
+/// The product rule on the square, mapped onto the triangle: an edge collapses to a point, and the
 /// map's determinant takes one degree.
 Points collapsed_rule(int n) {
   Points rule;
@@ -75,8 +75,8 @@ Points collapsed_rule(int n) {
   return rule;
 }
 
-/// The point whose barycentric coordinates are `a`, but for corner k of `corners`: there it is the
-/// rest.
+/// The point whose barycentric coordinates are all `a`, except for corner k of `corners`, which has
+/// the rest.
 Eigen::Vector3d near_corner(int k, int corners, double a) {
   Eigen::Vector3d place = Eigen::Vector3d::Constant(a);
   if (k > 0) place[k - 1] = 1 - (corners - 1) * a;
@@ -84,7 +84,7 @@ Eigen::Vector3d near_corner(int k, int corners, double a) {
   return place;
 }
 
-/// The orbit of the point whose barycentric coordinates are `a` but for one.
+/// Adds the orbit of the point whose barycentric coordinates are all `a` except for one.
 void add_corner_orbit(Points& rule, int corners, double a, double weight) {
   for (int k = 0; k < corners; ++k) rule.add(near_corner(k, corners, a), weight);
 }
@@ -122,7 +122,7 @@ Points tetrahedron_rule(int n) {
     default: {
       add_corner_orbit(rule, 4, 0.31088591926330060980, 0.11268792571801585080 / 6);
       add_corner_orbit(rule, 4, 0.092735250310891226402, 0.073493043116361949544 / 6);
-      // Edge midpoints drawn inwards: two barycentric coordinates are b, two the rest.
+      // Edge midpoints moved inwards: two barycentric coordinates are b, two the rest.
       const double b = 0.045503704125649649492;
       const double rest = 0.5 - b;
       for (const Eigen::Vector3d& place :
@@ -168,7 +168,7 @@ std::vector<LinePoint> gauss_jacobi_line(int n) {
   return rule;
 }
 
-/// The product rule on the cube, mapped onto the pyramid: a side shrinks to the apex.
+/// The product rule on the cube, mapped onto the pyramid: a face collapses to the apex.
 Points pyramid_rule(int n) {
   Points rule;
   const Points base = product_rule(n, 2);

@@ -7,12 +7,12 @@
 namespace flexneck::mesher {
 namespace {
 
-/// In 4096ths: values are multiples of 1/64, but for rounding.
+/// A weight in units of 1/4096: weights are multiples of 1/64, except for rounding.
 std::int64_t in_4096ths(double value) { return std::llround(4096 * value); }
 
 }  // namespace
 
-// Where elements are cut in eight, there are about eight times as many nodes.
+// Where elements are divided into eight, there are about eight times as many nodes.
 RefinedNodes::RefinedNodes(std::size_t old_count)
     : old_count_(old_count), numbers_(8 * old_count, Hash{this}, Same{this}) {}
 

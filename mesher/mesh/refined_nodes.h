@@ -16,19 +16,19 @@ struct NodeWeight {
   double value;
 };
 
-/// A position by the shape functions that are not zero there.
+/// A position given by the shape functions that are not zero there.
 struct Position {
-  std::span<const NodeWeight> weights;    ///< by nodes of a mesh, or by local ones
-  const std::int32_t* element = nullptr;  ///< the nodes of the element, if by local ones
+  std::span<const NodeWeight> weights;    ///< by nodes of a mesh, or by local nodes
+  const std::int32_t* element = nullptr;  ///< nodes of the element, if by local nodes
 
   std::int32_t node_of(const NodeWeight& weight) const {
     return element == nullptr ? weight.node : element[weight.node];
   }
 };
 
-/// Nodes of a finer mesh, by their positions in a mesh before: elements that share a face, an edge
-/// or a node know these by the same weights, in any order. Nodes of the mesh before come first and
-/// keep their numbers.
+/// Nodes of a finer mesh, identified by their positions in the coarse mesh: elements that share a
+/// face, an edge or a node describe its nodes by the same weights, in any order. Nodes of the
+/// coarse mesh come first and keep their numbers.
 class RefinedNodes {
  public:
   explicit RefinedNodes(std::size_t old_count);
@@ -36,14 +36,15 @@ class RefinedNodes {
   RefinedNodes& operator=(const RefinedNodes&) = delete;
   ~RefinedNodes() = default;
 
-  /// Number of the position, a new one if it is not known.
-  /// @param position whose weights and element are kept by reference
+  /// Number of the node at a position; a new number if it is not known.
+  /// @param position its weights and element are kept by reference
   std::int32_t number(const Position& position);
   std::optional<std::int32_t> find(const Position& position) const;
 
   std::size_t size() const { return old_count_ + positions_.size(); }
-  /// Of all nodes together.
+  /// Number of weights of all nodes together.
   std::size_t weight_count() const;
+  /// Writes the weights of a node.
   /// @param weights are overwritten
   void find_weights(std::size_t number, std::vector<NodeWeight>& weights) const;
 
@@ -70,7 +71,7 @@ class RefinedNodes {
   };
 
   std::size_t old_count_;
-  std::vector<Position> positions_;  ///< of the new nodes
+  std::vector<Position> positions_;  ///< positions of the new nodes
   std::unordered_set<std::int32_t, Hash, Same> numbers_;
 };
 

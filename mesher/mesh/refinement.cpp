@@ -14,7 +14,7 @@
 namespace flexneck::mesher {
 namespace {
 
-/// Cuts elements or faces of one kind.
+/// Divides elements or faces of one kind.
 ByKind<std::int32_t> cut(const Subdivision& subdivision, std::span<const std::int32_t> connectivity,
                          RefinedNodes& refined) {
   const std::size_t width = nodes_per_element(subdivision.kind);
@@ -31,13 +31,13 @@ ByKind<std::int32_t> cut(const Subdivision& subdivision, std::span<const std::in
   return result;
 }
 
-/// Blocks of the finer mesh, and of each block's elements those that they were cut from.
+/// Blocks of the finer mesh, with the parent of each of their elements.
 class FinerBlocks {
  public:
   explicit FinerBlocks(Mesh& mesh) : mesh_(mesh) {}
 
   /// Appends elements of a part to its block of their kind.
-  /// @param first_parent, parent_count of which each has as many of them
+  /// @param first_parent, parent_count consecutive parents, each with equally many of the elements
   void append(ElementBlock added, std::int32_t first_parent, std::size_t parent_count) {
     const std::size_t pieces = added.size() / parent_count;
     auto found = std::find_if(mesh_.blocks.begin(), mesh_.blocks.end(), [&](const auto& block) {
@@ -66,7 +66,7 @@ class FinerBlocks {
   std::vector<std::vector<std::int32_t>> parents_;
 };
 
-/// The nodes whose weights all lie in the set.
+/// The nodes whose weights all belong to nodes of the set.
 NodeSet refine_set(const NodeSet& set, const RefinedNodes& refined) {
   NodeSet result{set.name, {}};
   std::vector<NodeWeight> weights;
@@ -81,16 +81,16 @@ NodeSet refine_set(const NodeSet& set, const RefinedNodes& refined) {
   return result;
 }
 
-/// Tells whether a face set of the same name has the same nodes; it has them in the finer mesh,
-/// too.
+/// Returns whether a face set of the same name has the same nodes; it then also has them in the
+/// finer mesh.
 bool is_of_faces(const Mesh& mesh, const NodeSet& set) {
   return std::any_of(mesh.face_sets.begin(), mesh.face_sets.end(), [&](const FaceSet& faces) {
     return faces.name == set.name && nodes_of(faces).nodes == set.nodes;
   });
 }
 
-/// New nodes among those of a coupling or support belong to it; masses, springs and equations stay
-/// where they are, with reference points behind more nodes.
+/// Connections of the finer mesh. New nodes among those of a coupling or support belong to it;
+/// masses, springs and equations keep their sites, with reference points numbered after more nodes.
 Connections refine_connections(const Mesh& mesh, const RefinedNodes& refined) {
   Connections result = mesh.connections;
   const auto finer = [&](std::vector<std::int32_t>& nodes) {
@@ -111,7 +111,8 @@ Connections refine_connections(const Mesh& mesh, const RefinedNodes& refined) {
   return result;
 }
 
-/// A position of the lower face becomes one of the upper face when its nodes are exchanged.
+/// Refines a slit. Exchanging lower for upper nodes turns a position on the lower face into its
+/// partner on the upper face.
 Slit refine_slit(const Slit& slit, const RefinedNodes& refined) {
   std::map<std::int32_t, std::int32_t> partner;
   for (std::size_t p = 0; p < slit.lower.size(); ++p) partner[slit.lower[p]] = slit.upper[p];
@@ -162,7 +163,7 @@ void place_nodes(const Mesh& before, const RefinedNodes& refined, RefinedMesh& r
 
 RefinedMesh refine(const Mesh& mesh) {
   RefinedMesh result;
-  std::map<ElementKind, Subdivision> subdivisions;  // which new nodes keep references to
+  std::map<ElementKind, Subdivision> subdivisions;  // new nodes keep references to them
   RefinedNodes refined(mesh.nodes.size());
   const auto pieces_of = [&](ElementKind kind, std::span<const std::int32_t> connectivity) {
     return cut(subdivisions.try_emplace(kind, kind).first->second, connectivity, refined);

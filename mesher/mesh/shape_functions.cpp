@@ -10,7 +10,7 @@
 namespace flexneck::mesher {
 namespace {
 
-/// Functions that an element's shape functions span.
+/// Functions that span an element's shape functions.
 std::vector<Exponents> functions_of(ElementKind kind) {
   std::vector<Exponents> functions;
   const int highest_z = dimension(kind) == 3 ? 2 : 0;
@@ -31,7 +31,7 @@ double power_slope(double x, int exponent) { return exponent == 0 ? 0 : exponent
 
 struct Term {
   double value;
-  Eigen::Vector3d slope;  ///< by reference coordinate
+  Eigen::Vector3d slope;  ///< derivatives by reference coordinate
 };
 
 Term monomial(const Exponents& e, const Eigen::Vector3d& x) {
@@ -41,7 +41,8 @@ Term monomial(const Exponents& e, const Eigen::Vector3d& x) {
            f[0] * f[1] * power_slope(x[2], e[2])}};
 }
 
-/// At the apex, where slopes depend on the direction, those along the axis.
+/// A function of a pyramid and its derivatives; at the apex, where they depend on the direction,
+/// those along the axis.
 Term pyramid_term(const Exponents& e, const Eigen::Vector3d& x) {
   const double w = 1 - x[2];
   const int m = std::max(e[0], e[1]);
@@ -49,7 +50,7 @@ Term pyramid_term(const Exponents& e, const Eigen::Vector3d& x) {
   const double b = w > 0 ? x[1] / w : 0;
   const double z = power(x[2], e[2]);
   const double in_base = power(a, e[0]) * power(b, e[1]);
-  const double w_less = m == 0 ? 0 : power(w, m - 1);  // of terms that vanish where m does
+  const double w_less = m == 0 ? 0 : power(w, m - 1);  // factor of terms that vanish where m does
   return {in_base * power(w, m) * z,
           {power_slope(a, e[0]) * power(b, e[1]) * w_less * z,
            power(a, e[0]) * power_slope(b, e[1]) * w_less * z,
@@ -60,8 +61,8 @@ Term term_of(ElementKind kind, const Exponents& e, const Eigen::Vector3d& x) {
   return shape_of(kind) == ReferenceShape::pyramid ? pyramid_term(e, x) : monomial(e, x);
 }
 
-/// Column n: coefficients of the shape function of node n. They are multiples of 1/8, so rounding
-/// makes them exact: a shape function is exactly one at its node and zero at the others.
+/// Coefficients of the shape functions; column n belongs to node n. They are multiples of 1/8, so
+/// rounding makes them exact: a shape function is exactly one at its node and zero at the others.
 Eigen::MatrixXd coefficients_of(ElementKind kind, const std::vector<Exponents>& functions) {
   const auto nodes = reference_nodes(kind);
   const auto n = static_cast<Eigen::Index>(nodes.size());

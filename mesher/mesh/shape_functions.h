@@ -13,12 +13,12 @@ struct Quadrature {
   Eigen::VectorXd weights;  ///< (q), all positive
 };
 
-/// Rule of strength n = 1 … 4, on the tetrahedron 1 … 3. Hexahedra and quadrilaterals: the Gauss
-/// product rule with n points in each direction, exact to degree 2n - 1 in each. Simplices: exact
-/// to the total degree 1, 2, 5, 6 with 1, 3, 7, 16 points on the triangle and 1, 4, 14 on the
-/// tetrahedron (n = 3: Radon's rule, and Walkington's, 2000; n = 4: collapsed Gauss product).
-/// Prisms: the rule of the triangle times that of the line. Pyramids: collapsed Gauss product, n^3
-/// points, exact to the total degree 2n - 1.
+/// Quadrature rule of strength n = 1 … 4, on the tetrahedron 1 … 3. Hexahedra and quadrilaterals:
+/// the Gauss product rule with n points in each direction, exact to degree 2n - 1 in each.
+/// Simplices: exact to the total degree 1, 2, 5, 6 with 1, 3, 7, 16 points on the triangle and 1,
+/// 4, 14 on the tetrahedron (n = 3: Radon's rule, and Walkington's, 2000; n = 4: collapsed Gauss
+/// product). Prisms: the rule of the triangle times that of the line. Pyramids: collapsed Gauss
+/// product, n^3 points, exact to the total degree 2n - 1.
 /// @throws InputError for another n.
 Quadrature gauss_rule(ElementKind kind, int n);
 

@@ -13,7 +13,8 @@
 namespace flexneck::mesher {
 namespace {
 
-/// A piece of a reference element: the reference element of a shape under x -> origin + linear x.
+/// A child of a reference element: the image of a shape's reference element under x -> origin +
+/// linear x.
 struct Piece {
   ReferenceShape shape;
   Eigen::Vector3d origin;
@@ -22,7 +23,8 @@ struct Piece {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-/// The reference tetrahedron onto the one with these corners, turned right side out.
+/// The map of the reference tetrahedron onto the one with these corners, reordered to a positive
+/// volume.
 Piece onto_tetrahedron(Points corners) {
   const auto edges = [&] {
     Eigen::Matrix3d matrix;
@@ -42,7 +44,7 @@ std::vector<Piece> pieces_of_tetrahedron() {
   std::vector<Piece> pieces;
   for (const Eigen::Vector3d& c : corner)
     pieces.push_back({ReferenceShape::tetrahedron, c / 2, Eigen::Matrix3d::Identity() / 2});
-  // The octahedron that is left, cut along the diagonal between the middles of edges 02 and 13.
+  // The remaining octahedron, divided along the diagonal between the midpoints of edges 02 and 13.
   const Eigen::Vector3d one = middle(0, 2);
   const Eigen::Vector3d other = middle(1, 3);
   const Points ring = {middle(0, 1), middle(0, 3), middle(2, 3), middle(1, 2)};
@@ -52,7 +54,8 @@ std::vector<Piece> pieces_of_tetrahedron() {
   return pieces;
 }
 
-/// Triangles in the plane zeta = 0: three corners, and the middle one turned by half a turn.
+/// Triangles in the plane zeta = 0: three at the corners, and the middle one rotated by half a
+/// turn.
 std::vector<Piece> pieces_of_triangle() {
   const ReferenceShape shape = ReferenceShape::triangle;
   const Eigen::Matrix3d half = Eigen::Vector3d(0.5, 0.5, 1).asDiagonal();
@@ -63,7 +66,7 @@ std::vector<Piece> pieces_of_triangle() {
           {shape, {0.5, 0.5, 0}, turned}};
 }
 
-/// Five pyramids at the corners, one upside down under the uppermost, and four tetrahedra.
+/// Five pyramids at the corners, one upside down below the topmost, and four tetrahedra.
 std::vector<Piece> pieces_of_pyramid() {
   const Eigen::Matrix3d half = Eigen::Matrix3d::Identity() / 2;
   const Eigen::Matrix3d upside_down = Eigen::Vector3d(0.5, -0.5, -0.5).asDiagonal();
@@ -119,8 +122,8 @@ std::vector<Piece> pieces_of(ReferenceShape shape) {
   return pieces;
 }
 
-/// The kind of a piece: that of the whole, or, where the shape differs, of the same order. All
-/// tetrahedra of an order have as many nodes on a side as the pyramids that they are cut from.
+/// The kind of a child: that of the parent or, if the shape differs, one of the same order. All
+/// tetrahedra of an order have as many nodes on a facet as the pyramids that they are cut from.
 ElementKind kind_of_piece(ElementKind whole, ReferenceShape shape) {
   if (shape == shape_of(whole)) return whole;
   const auto kinds = element_kinds();

@@ -10,20 +10,21 @@
 
 namespace flexneck::mesher {
 
-/// Pieces by their kind: row-major (pieces, nodes per element) places of nodes, local or of a mesh.
+/// Children by their kind: row-major (children, nodes per element) indices of nodes, local or of a
+/// mesh.
 template <typename Index>
 using ByKind = std::map<ElementKind, std::vector<Index>>;
 
-/// How elements or faces of a kind are cut, in eight or four: along the planes that halve the
+/// Division of the elements or faces of a kind into eight or four, along the planes that halve the
 /// reference element. Pyramids become pyramids and tetrahedra.
 struct Subdivision {
   explicit Subdivision(ElementKind whole);
 
   ElementKind kind;
-  /// Of the pieces' nodes, each by those local nodes of the whole whose shape functions are not
+  /// Positions of the children's nodes, each given by the parent's shape functions that are not
   /// zero there.
   std::vector<std::vector<NodeWeight>> positions;
-  ByKind<std::size_t> pieces;  ///< their nodes as places in `positions`
+  ByKind<std::size_t> pieces;  ///< their nodes as indices into `positions`
 };
 
 }  // namespace flexneck::mesher

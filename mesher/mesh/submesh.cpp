@@ -9,7 +9,7 @@
 namespace flexneck::mesher {
 namespace {
 
-/// Nodes are still those of the whole.
+/// The blocks of a submesh, whose node indices are still those of the whole mesh.
 std::vector<ElementBlock> blocks_of(const Mesh& whole, const PieceOfElement& piece_of_element,
                                     std::int32_t piece) {
   std::vector<ElementBlock> blocks;

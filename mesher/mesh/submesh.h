@@ -8,16 +8,16 @@
 
 namespace flexneck::mesher {
 
-/// The piece of each element, the mesh's blocks in their order.
+/// Number of the submesh of each element, the mesh's blocks in their order.
 using PieceOfElement = std::vector<std::int32_t>;
 
-/// A piece as a mesh of its own, in the frame of the whole.
+/// A submesh, in the frame of the whole mesh.
 struct MeshPiece {
   Mesh mesh;
-  std::vector<std::int32_t> nodes;  ///< of the whole, by node of the piece; ascending
+  std::vector<std::int32_t> nodes;  ///< index in the whole mesh, by node of the submesh; ascending
 };
 
-/// Elements, nodes and materials of one piece; no sets and no slits.
+/// Returns the elements, nodes and materials of one submesh; no sets and no slits.
 MeshPiece submesh(const Mesh& whole, const PieceOfElement& piece_of_element, std::int32_t piece);
 
 }  // namespace flexneck::mesher

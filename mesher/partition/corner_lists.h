@@ -8,7 +8,7 @@
 
 namespace flexneck::mesher {
 
-/// Elements by their corner nodes, in compressed rows as METIS takes them.
+/// Corner nodes of the elements, in compressed rows as METIS takes them.
 struct CornerLists {
   std::vector<idx_t> offsets = {0};
   std::vector<idx_t> corners;

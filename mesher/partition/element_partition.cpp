@@ -12,15 +12,15 @@
 namespace flexneck::mesher {
 namespace {
 
-/// Elements with three common corners have a common side.
+/// Number of common corners from which two elements have a common facet.
 constexpr idx_t kCornersOfAFacet = 3;
-/// Each bisection is the best of so many, with halves that differ from the mean by up to so many
-/// thousandths. METIS's k-way partition, one of up to 30 thousandths, leaves a sixth more degrees
-/// of freedom between two, four and eight parts of the neck with 191 000.
+/// Number of cuts of which each bisection takes the best, and the deviation of the halves from the
+/// mean in thousandths. METIS's k-way partition, with one of up to 30 thousandths, leaves a sixth
+/// more degrees of freedom between two, four and eight parts of the neck with 191 000.
 constexpr idx_t kCuts = 10;
 constexpr idx_t kImbalance = 50;
 
-/// METIS may leave a part of a small mesh without elements.
+/// Moves elements to empty parts: METIS may leave a part of a small mesh without elements.
 void fill_empty(std::vector<std::int32_t>& processes, int count) {
   std::vector<std::int32_t> sizes(static_cast<std::size_t>(count));
   for (const std::int32_t process : processes) ++sizes[static_cast<std::size_t>(process)];

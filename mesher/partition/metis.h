@@ -14,7 +14,8 @@ using MetisOptions = std::array<idx_t, METIS_NOPTIONS>;
 /// METIS's defaults with indices from 0 and a fixed seed: equal input gives equal output.
 MetisOptions metis_options();
 
-/// @throws ComputationError saying what METIS was doing, unless the status is METIS_OK.
+/// Checks the status of METIS.
+/// @throws ComputationError naming the operation `doing`, unless the status is METIS_OK.
 void require_metis(int status, const std::string& doing);
 
 struct MetisFree {

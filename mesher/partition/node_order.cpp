@@ -16,7 +16,9 @@ namespace {
 
 static_assert(std::is_same_v<idx_t, std::int32_t>, "METIS must have 32-bit indices");
 
-/// @param offsets, columns  without loops; METIS takes them as not const but leaves them alone
+/// Elimination order of a graph without loops.
+/// @param offsets, columns  in compressed rows; METIS takes them as not const but leaves them
+/// unchanged
 std::vector<std::int32_t> order_without_loops(idx_t vertices, idx_t* offsets, idx_t* columns) {
   MetisOptions options = metis_options();
   std::vector<std::int32_t> order(static_cast<std::size_t>(vertices));
@@ -27,7 +29,8 @@ std::vector<std::int32_t> order_without_loops(idx_t vertices, idx_t* offsets, id
   return order;
 }
 
-/// Each node, but the lower node of a tied pair for its upper one.
+/// Representative of each node: the node itself, or the lower node of a tied pair for its upper
+/// one.
 std::vector<std::int32_t> representatives(const Mesh& mesh) {
   std::vector<std::int32_t> stand_in(mesh.nodes.size());
   std::iota(stand_in.begin(), stand_in.end(), 0);
@@ -40,7 +43,7 @@ std::vector<std::int32_t> representatives(const Mesh& mesh) {
   return stand_in;
 }
 
-/// Elements by their corners, which are numbered without gaps.
+/// Corners of the elements, numbered without gaps.
 class CornerGraph {
  public:
   CornerGraph(const Mesh& mesh, std::vector<std::int32_t> stand_in)
@@ -53,7 +56,7 @@ class CornerGraph {
   }
 
   idx_t corner_count() const { return count_; }
-  /// Number of a node that is a corner.
+  /// Number of a corner node.
   std::int32_t corner(std::int32_t node) const {
     return number_[static_cast<std::size_t>(stand_in_[static_cast<std::size_t>(node)])];
   }
@@ -70,7 +73,7 @@ class CornerGraph {
   idx_t count_ = 0;
 };
 
-/// When each corner is eliminated among the corners.
+/// Position of each corner in the elimination order of the corners.
 std::vector<std::int32_t> places_of_corners(const CornerGraph& graph) {
   CornerLists lists = graph.elements();
   auto element_count = static_cast<idx_t>(lists.offsets.size()) - 1;
@@ -92,13 +95,13 @@ std::vector<std::int32_t> places_of_corners(const CornerGraph& graph) {
   return place;
 }
 
-/// For each node of an element the corners of the edge, face or body in whose middle it lies; of a
-/// corner itself.
+/// For each node of an element, the corners of the edge, face or body in whose middle it lies; for
+/// a corner, itself.
 std::vector<std::vector<std::size_t>> defining_corners(ElementKind kind) {
   const std::size_t corner_count = corners_per_element(kind);
   std::vector<std::vector<std::size_t>> result(nodes_per_element(kind));
   for (std::size_t node = 0; node < result.size(); ++node) {
-    // The corners that lie on every side on which the node lies.
+    // The corners that lie on every facet on which the node lies.
     std::vector<bool> on_all(corner_count, true);
     for (const ReferenceFacet& side : facets_of(kind)) {
       const auto has = [&](std::size_t other) {
@@ -114,7 +117,7 @@ std::vector<std::vector<std::size_t>> defining_corners(ElementKind kind) {
   return result;
 }
 
-/// When a node is eliminated: in the order of these members.
+/// Sort key of a node in the elimination order; the members are compared in their order.
 struct Turn {
   std::int32_t first_place = 0;
   std::int32_t fewer_corners = 0;
@@ -151,7 +154,8 @@ std::vector<std::int32_t> nested_dissection(const Mesh& mesh) {
   const CornerGraph graph(mesh, stand_in);
   const std::vector<std::int32_t> place = places_of_corners(graph);
 
-  // A node's turn: the first of its corners, and within that the node with the most corners first.
+  // Nodes are ordered by the first of their corners; those with the same one by the number of
+  // corners, largest first.
   std::vector<Turn> turns(mesh.nodes.size());
   for (const ElementBlock& block : mesh.blocks) {
     const auto corners = defining_corners(block.kind);

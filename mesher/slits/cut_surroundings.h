@@ -10,23 +10,23 @@
 
 namespace flexneck::mesher {
 
-/// The elements that touch the faces of some cuts, in the order of the mesh. Found in one pass; all
-/// further work is on these.
+/// The elements that touch the faces of some cuts, in the order of the mesh. They are found in one
+/// pass; all further work uses only these.
 struct CutSurroundings {
-  /// A node on a cut as one of the elements there has it.
+  /// A node on a cut as one local node of one of the elements there.
   struct Incidence {
     std::int32_t node;
-    std::uint32_t local;  ///< place among the element's nodes
+    std::uint32_t local;  ///< index among the element's nodes
   };
   struct Element {
     std::size_t block, number;
     std::size_t first_incidence;  ///< its incidences end where those of the next element begin
   };
-  /// A side with at least one node on a cut.
+  /// A facet with at least one node on a cut.
   struct KnownFacet {
     FacetKey key;
-    std::uint32_t element;  ///< of `elements`
-    std::uint32_t side;     ///< of facets_of()
+    std::uint32_t element;  ///< index into `elements`
+    std::uint32_t side;     ///< index into facets_of()
   };
   /// A face of a cut.
   struct Face {

@@ -15,7 +15,7 @@ constexpr std::int8_t kNoColour = -1;
 constexpr std::int8_t kLower = 0;
 constexpr std::int8_t kUpper = 1;
 
-/// Calls what(side, next) for sides that two elements share.
+/// Calls what(side, next) for the facets that two elements share.
 template <class What>
 void for_each_shared_facet(const std::vector<CutSurroundings::KnownFacet>& sides,
                            const What& what) {
@@ -102,7 +102,7 @@ void CutTopology::find_doubled_nodes() {
   std::size_t begin = 0;
   for (auto on_cut = nodes.begin(); on_cut != nodes.end(); ++on_cut) {
     const auto& [node, cut] = *on_cut;
-    std::vector<std::size_t> roots;  // one for each group of elements that hang together
+    std::vector<std::size_t> roots;  // one for each group of connected elements
     std::size_t end = begin;
     for (; end < by_node.size() && near_.incidences[by_node[end]].node == node; ++end) {
       const std::size_t root = sets_.root(by_node[end]);
@@ -185,7 +185,7 @@ void CutTopology::colour_from(std::size_t start, const std::vector<Across>& acro
 
 void CutTopology::tell_lips_apart() {
   const std::vector<Across> across = lips_across_faces();
-  // The smallest root is that of the first element of the mesh.
+  // The smallest root belongs to the first element of the mesh.
   for (const auto& [lip, other, cut] : across) {
     if (colour_[lip] == kNoColour) colour_from(lip, across);
   }

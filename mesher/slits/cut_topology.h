@@ -12,33 +12,33 @@
 
 namespace flexneck::mesher {
 
-/// A node that a cut parts in two.
+/// A node that a cut splits in two.
 struct DoubledNode {
   std::size_t cut = 0;
   std::int32_t node = 0;
 };
 
-/// A face of a cut as the elements below and above it have it.
+/// A face of a cut as a facet of the elements below and above it.
 struct CutFace {
   std::size_t cut = 0;
   const CutSurroundings::KnownFacet* lower = nullptr;
   const CutSurroundings::KnownFacet* upper = nullptr;
 };
 
-/// How cuts part the elements round them. Around each node on a cut, elements hang together through
-/// the sides that are no face of a cut. A node with elements that do not is doubled. All elements
-/// that hang together round doubled nodes make one lip of a cut, the lower or the upper one.
+/// Topology of the elements around cuts. Elements around a node on a cut are connected by the
+/// facets that are no face of a cut. A node whose elements fall into two groups is doubled. All
+/// elements connected around doubled nodes form one lip of a cut, the lower or the upper one.
 class CutTopology {
  public:
   /// @param names of the cuts, for messages
   /// @throws InputError as open_slits() does.
   CutTopology(const CutSurroundings& surroundings, std::vector<std::string> names);
 
-  /// By cut, then by node.
+  /// The doubled nodes, sorted by cut, then by node.
   const std::vector<DoubledNode>& doubled() const { return doubled_; }
-  /// By key.
+  /// The faces of all cuts, sorted by key.
   const std::vector<CutFace>& faces() const { return faces_; }
-  /// Whether an incidence is that of a doubled node on the upper lip.
+  /// Returns whether an incidence belongs to a doubled node on the upper lip.
   bool takes_copy(std::size_t incidence);
 
  private:
@@ -62,7 +62,7 @@ class CutTopology {
   std::vector<CutFace> faces_;
   std::vector<DoubledNode> doubled_;
   std::vector<bool> is_doubled_;     ///< by incidence
-  std::vector<std::int8_t> colour_;  ///< by incidence that stands for a lip
+  std::vector<std::int8_t> colour_;  ///< by incidence that represents a lip
 };
 
 }  // namespace flexneck::mesher

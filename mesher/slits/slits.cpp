@@ -30,7 +30,7 @@ class Copies {
     for (const DoubledNode& each : doubled) copy_of_[static_cast<std::size_t>(each.node)] = next++;
   }
 
-  /// kNone if the node is not doubled.
+  /// The copy of a node; kNone if the node is not doubled.
   std::int32_t of(std::int32_t node) const { return copy_of_[static_cast<std::size_t>(node)]; }
 
  private:
@@ -50,7 +50,7 @@ std::vector<std::int32_t> nodes_of_facet(const CutSurroundings& near,
   return nodes;
 }
 
-/// The nodes of elements once the upper lips have the copies.
+/// The element blocks in which the upper lips use the copies.
 std::vector<ElementBlock> opened_blocks(const CutSurroundings& near, CutTopology& topology,
                                         const Copies& copies) {
   std::vector<ElementBlock> blocks = near.mesh.blocks;
@@ -67,7 +67,7 @@ std::vector<ElementBlock> opened_blocks(const CutSurroundings& near, CutTopology
   return blocks;
 }
 
-/// The side that a face with doubled nodes belongs to: below a cut, or of the first element.
+/// The facet that a face with doubled nodes belongs to: below a cut, or of the first element.
 const CutSurroundings::KnownFacet& owner_of(const CutSurroundings& near,
                                             const CutTopology& topology, const FacetKey& key,
                                             const std::string& set) {
@@ -82,7 +82,8 @@ const CutSurroundings::KnownFacet& owner_of(const CutSurroundings& near,
   return *side;
 }
 
-/// Faces with doubled nodes take the nodes of the side that they belong to.
+/// The face set after opening: faces with doubled nodes take the nodes of the facet that they
+/// belong to.
 FaceSet opened_faces(const CutSurroundings& near, CutTopology& topology, const Copies& copies,
                      FaceSet set) {
   for (FaceBlock& block : set.blocks) {
@@ -143,7 +144,7 @@ NodeSet opened_nodes(const Copies& copies, const std::vector<FaceSet>& opened_se
   return set;
 }
 
-/// int N dA and the normals of a face at its nodes, the latter as long as the surface element.
+/// int N dA and the normals of a face at its nodes; a normal has the length of the surface element.
 struct FaceWeights {
   Eigen::VectorXd areas_m2;
   Eigen::Matrix3Xd normals;
@@ -161,7 +162,8 @@ Eigen::Matrix3Xd normals_at(const Eigen::Matrix3Xd& x, const ShapeTable& table) 
 }
 
 FaceWeights weights_of(ElementKind kind, const Eigen::Matrix3Xd& x) {
-  const Quadrature rule = gauss_rule(kind, 4);  // the finest: a curved face has a square root
+  const Quadrature rule = gauss_rule(kind, 4);  // the finest rule: the integrand on a curved face
+                                                // has a square root
   const ShapeTable at_rule = tabulate(kind, rule.points);
   const auto nodes = reference_nodes(kind);
   Eigen::Matrix3Xd node_points(3, static_cast<Eigen::Index>(nodes.size()));

@@ -8,9 +8,10 @@
 
 namespace flexneck::mesher {
 
-/// Cuts the mesh along face sets inside it, of elements of any kind: a node is doubled where the
-/// elements round it fall apart once the faces of the sets no longer hold them together. So the cut
-/// opens where it reaches a free surface (its mouth), and its inner edge (its tip) stays whole.
+/// Cuts the mesh along face sets inside it, of elements of any kind. A node is doubled where the
+/// elements around it are disconnected once the faces of the sets no longer connect them. So the
+/// cut opens where it reaches a free surface (its mouth), and its inner edge (its tip) stays
+/// connected.
 ///
 /// Each set becomes a Slit of its name. Its lower side is the one with the first element of the
 /// mesh; it keeps its nodes, the upper side gets the copies, which are appended slit by slit in the
@@ -19,14 +20,14 @@ namespace flexneck::mesher {
 /// both nodes of a pair, unless the face set of its name has only one of them.
 ///
 /// `Slit::areas_m2` is int N dA over the slit's faces, `normals` the mean of the faces' normals at
-/// the node. The areas of a slit add up to that of its faces less what belongs to the tip. With
-/// 8-node quadrilaterals the areas of corners are negative, with 6-node triangles zero, as those of
-/// a consistent load are.
+/// the node. The areas of a slit add up to that of its faces less the part that belongs to the tip.
+/// With 8-node quadrilaterals the areas of corners are negative, with 6-node triangles zero, like
+/// those of a consistent load.
 ///
 /// @param tied marks the slits as closed: their pairs move as one node.
 /// @throws InputError if there is no such set, one of its faces lies on the surface of the mesh or
-/// in two slits, slits meet or cross, a cut has only one side, or no node comes apart. The mesh is
-/// unchanged then.
+/// in two slits, slits meet or cross, a cut has only one side, or no node is doubled. The mesh is
+/// then unchanged.
 void open_slits(Mesh& mesh, const std::vector<std::string>& face_sets, bool tied);
 
 }  // namespace flexneck::mesher

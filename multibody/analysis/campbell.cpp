@@ -22,7 +22,7 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// The model with the rates of its turning bodies multiplied.
+/// The model with the rates of its rotating prescribed bodies multiplied.
 Model at_rate(Model model, double factor) {
   for (Body& body : model.bodies)
     if (auto* prescribed = std::get_if<PrescribedBody>(&body.kind))
@@ -30,13 +30,14 @@ Model at_rate(Model model, double factor) {
   return model;
 }
 
-/// The modes of one rate.
+/// The modes at one rate.
 struct ModesAtRate {
   double rate_Hz;
   std::vector<SystemMode> modes;
-  /// Velocities of all bodies, of unit length in the masses; empty without restoring force.
+  /// Velocities of all bodies, of unit norm in the mass metric; empty without restoring force.
   std::vector<VectorXcd> shapes;
-  /// Of the eigenvalue of each pair that has the shape: a whirl followed through zero turns over.
+  /// Frequency with the sign of the eigenvalue, of each conjugate pair, that has the shape: it
+  /// changes when a whirl is followed through zero.
   std::vector<double> signed_Hz;
   SparseMatrix mass;
   VectorXd positions;
@@ -58,20 +59,21 @@ ModesAtRate modes_at(const Model& model, const TurningFrame& frame, const ModesA
     found.modes.push_back(each.mode);
     found.modes.back().kink = reduced.kink();
     found.signed_Hz.push_back(each.mode.frequency_Hz);
-    // The basis is orthonormal in the masses.
+    // The basis is orthonormal in the mass metric.
     found.shapes.push_back(
         each.shape.size() > 0 ? VectorXcd(reduced.basis() * each.shape.normalized()) : VectorXcd());
   }
   return found;
 }
 
-/// Modal assurance of two shapes of unit length, from 0 to 1.
+/// Modal assurance criterion of two shapes of unit norm, from 0 to 1.
 double assurance(const VectorXcd& a, const VectorXcd& b, const SparseMatrix& mass) {
   return a.size() == 0 || b.size() == 0 ? 0 : std::norm(a.dot(mass * b));
 }
 
-/// Modes at a rate put into the order of those before that they continue, and turned over with
-/// them. The shape decides, and among like ones the frequency.
+/// Reorders the modes at a rate so that each continues one of the modes before, and conjugates
+/// those whose frequency has changed its sign. The shape decides, and the frequency among similar
+/// shapes.
 ModesAtRate continued(const ModesAtRate& before, const ModesAtRate& after) {
   const auto n = static_cast<Index>(before.modes.size());
   const auto likeness = [&](Index a, Index b, bool turned_over) {

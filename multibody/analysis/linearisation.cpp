@@ -17,10 +17,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// A squared eigenvalue below this share of the largest stiffness is what differences leave of
-/// zero.
+/// Fraction of the largest stiffness below which a squared eigenvalue is only an error of the
+/// finite differences.
 constexpr double kZero = 1e-9;
-/// A growth below this share of the fastest motion is what they leave of none.
+/// Fraction of the fastest rate below which a growth rate is only such an error.
 constexpr double kGrowth = 3e-7;
 
 struct RealEigenvalue {
@@ -36,9 +36,9 @@ SystemMode mode_of_pair(double l1, double l2) {
   return {omega / (2 * std::numbers::pi), 0, -(l1 + l2) / (2 * omega), growth};
 }
 
-/// The eigenvalues of an overdamped mode share their shape, at least when the damping does not
-/// couple the modes: each takes the most similar partner, slowest first. The partner of one alone
-/// is zero.
+/// Pairs real eigenvalues to overdamped modes. The two of a mode have the same shape, at least if
+/// the damping does not couple the modes: each takes the most similar partner, slowest first. A
+/// single one that is left over is paired with zero.
 std::vector<Eigenmode> overdamped_modes(std::vector<RealEigenvalue> values) {
   std::sort(values.begin(), values.end(),
             [](const auto& a, const auto& b) { return std::abs(a.value) < std::abs(b.value); });
@@ -71,7 +71,7 @@ std::vector<Eigenmode> overdamped_modes(std::vector<RealEigenvalue> values) {
 std::vector<Eigenmode> eigenmodes_of(const MatrixXd& A, Index positions, Index internal) {
   const Index rates = A.rows() - positions - internal;
   if (rates == 0) return {};
-  // In units of time that make the largest stiffness one.
+  // Time is scaled so that the largest stiffness is one.
   const double largest = A.block(positions, 0, rates, positions).cwiseAbs().maxCoeff();
   const double rate = largest > 0 ? std::sqrt(largest) : 1.0;
   MatrixXd scaled = A / rate;
@@ -99,7 +99,7 @@ std::vector<Eigenmode> eigenmodes_of(const MatrixXd& A, Index positions, Index i
   }
   if (internal == 0) {
     for (Eigenmode& mode : overdamped_modes(std::move(real))) modes.push_back(std::move(mode));
-    modes.resize(static_cast<std::size_t>(rates));  // the rest have no restoring force
+    modes.resize(static_cast<std::size_t>(rates));  // the others have no restoring force
   } else {
     for (const RealEigenvalue& each : real)
       if (each.value > kGrowth * rate) modes.push_back({mode_of_pair(each.value, 0), each.shape});

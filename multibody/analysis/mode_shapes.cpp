@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Models linearised about a state: eigenmodes of their coordinates, told as motions of markers.
+// Models linearised about a state: eigenmodes of their coordinates as motions of markers.
 #include <cmath>
 #include <optional>
 #include <string>
@@ -27,9 +27,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-/// Extent of the displacements that differences are taken over, as in ReducedDynamics.
+/// Extent of the displacements of the finite differences, as in ReducedDynamics.
 constexpr double kDifference = 1e-5;
-/// Displacements below this, m for a rad, are what differences leave of none.
+/// Displacement, in m or rad, below which a motion is only an error of the finite differences.
 constexpr double kNone = 1e-7;
 
 /// Motion of all markers per unit of each coordinate, (3 markers, coordinates).
@@ -50,7 +50,8 @@ std::complex<double> largest_of(const Matrix3Xcd& amplitudes) {
   return amplitudes(row, column);
 }
 
-/// @param kink  at which the model was linearised; empty if none
+/// Mode shapes as motions of the markers.
+/// @param kink  load with a kink at the state of linearisation; empty if none
 std::vector<ModeShape> shapes_of(const std::vector<Eigenmode>& modes, const MarkerMotions& per_unit,
                                  const std::string& kink) {
   std::vector<ModeShape> shapes;
@@ -74,7 +75,7 @@ std::vector<ModeShape> shapes_of(const std::vector<Eigenmode>& modes, const Mark
   return shapes;
 }
 
-/// At rest against a frame, in the independent coordinates of all bodies: every model.
+/// Linearises any model at rest relative to a frame, in the independent coordinates of all bodies.
 std::vector<ModeShape> linearise_at_rest(EquationsOfMotion& equations, const VectorXd& positions,
                                          const TurningFrame& frame = {}) {
   const System& system = equations.system();
@@ -100,7 +101,7 @@ std::vector<ModeShape> linearise_at_rest(EquationsOfMotion& equations, const Vec
   return shapes_of(modes, motions, reduced.kink());
 }
 
-/// Trees in motion, by differences of their state's rate.
+/// Linearises trees in motion, by finite differences of their state's rate.
 class TreeLinearisation {
  public:
   explicit TreeLinearisation(const Model& model)
@@ -173,7 +174,7 @@ class TreeLinearisation {
   VectorXd state_;
 };
 
-/// Whether nothing moves at time zero.
+/// Returns whether nothing moves at time zero.
 bool is_still(const Model& model) {
   for (const Body& body : model.bodies) {
     Eigen::Vector3d v = body.initial_velocity_m_s;

@@ -19,23 +19,24 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Directions, axes and rates that rounded input gives are the same within this share.
+/// Fraction within which directions, axes and rates of rounded input count as the same.
 constexpr double kSame = 1e-9;
 
 constexpr int kMaxIterations = 100;
 /// As in the search for an equilibrium at rest: extents of the longest step and of the one that
-/// ends the search, and the share of the largest stiffness below which there is none.
+/// ends the search, and the fraction of the largest stiffness below which a direction is neutral.
 constexpr double kLargestStep = 0.5;
 constexpr double kConverged = 1e-10;
 constexpr double kNeutral = 1e-10;
-/// Extent by which bodies may move away in a turn where nothing holds them.
+/// Extent by which unconstrained bodies may drift in one revolution.
 constexpr double kDrift = 1e-6;
 
-/// Extent of the displacements over which loads all round the axis are compared, and the share of
-/// the largest by which they may differ: rounding is a tenth of it.
+/// Extent of the displacements at which loads around the axis are compared, and the fraction of the
+/// largest load by which they may differ: rounding is a tenth of it.
 constexpr double kProbe = 2e-5;
 constexpr double kEven = 1e-9;
-/// No multiple of this angle is a full turn, so that no pattern round the axis repeats with it.
+/// Angle at which loads are compared: no multiple of it is a full turn, so that no pattern around
+/// the axis repeats with it.
 constexpr double kPhase_rad = 1;
 
 bool is_along(const Vector3d& vector, const Vector3d& axis) {
@@ -100,7 +101,7 @@ void check_loads(const Model& model, const TurningFrame& frame) {
   });
 }
 
-/// Joints between what turns and what does not must let it turn.
+/// Checks that joints between rotating and non-rotating bodies permit the rotation.
 void check_joints(const EquationsOfMotion& equations, const TurningFrame& frame) {
   const System& system = equations.system();
   const double rate = frame.rate_rad_s.norm();
@@ -116,12 +117,12 @@ void check_joints(const EquationsOfMotion& equations, const TurningFrame& frame)
   }
 }
 
-/// Seen from the frame, loads and their derivatives must be the same at any time.
+/// Checks that loads and their derivatives in the rotating frame do not depend on time.
 void check_evenness(ReducedDynamics& here, const TurningFrame& frame) {
   const double rate = frame.rate_rad_s.norm();
   if (rate == 0) return;
   ReducedDynamics there = here.turned(kPhase_rad / rate);
-  // Displaced by xi, and moving at as much a radian; what is quadratic in both cancels.
+  // Displacement xi and velocity rate xi; terms that are quadratic in both cancel.
   const auto change = [&](ReducedDynamics& seen, const VectorXd& xi) {
     return VectorXd(seen.accelerations_at(xi, rate * xi) - seen.accelerations_at(-xi, -rate * xi));
   };
@@ -142,7 +143,7 @@ void check_evenness(ReducedDynamics& here, const TurningFrame& frame) {
         "same all round the axis");
 }
 
-/// Newton's step, and the accelerations that it leaves where nothing resists.
+/// Newton's step, and the accelerations that remain along neutral directions.
 struct Step {
   VectorXd xi, rest;
 };
@@ -201,7 +202,7 @@ VectorXd rotating_positions(EquationsOfMotion& equations, const TurningFrame& fr
       check_evenness(reduced, frame);
       return reduced.positions_at(step.xi);
     }
-    // Halve the step until it helps; what is left is less than a thousandth of it.
+    // Halve the step, to a thousandth of it at most, until it reduces the accelerations.
     for (int halving = 0; halving < 10; ++halving, step.xi /= 2)
       if (reduced.accelerations_at(step.xi).norm() < accelerations.norm()) break;
     at = reduced.positions_at(step.xi);

@@ -103,8 +103,8 @@ void update_right_hand_side(const BodyConstants& body, const Vector3d& gravity_m
   const auto adot = velocity.tail(m);
   const Vector3d gravity = terms.A.transpose() * gravity_m_s2;
 
-  // u_t = -A ~w (~w S + 2 S2 adot) + m g,  u_r = -~w J w - 2 sum_l adot_l G_l w + ~S A^T g, and
-  // what section 3a adds.
+  // u_t = -A ~w (~w S + 2 S2 adot) + m g,  u_r = -~w J w - 2 sum_l adot_l G_l w + ~S A^T g, plus
+  // the terms of section 3a.
   Vector3d moved = w.cross(terms.S);
   Vector3d u_r = terms.S.cross(gravity) - w.cross(terms.J * w);
   if (m > 0) {

@@ -17,7 +17,8 @@ struct BodyConstants {
 
   Eigen::Index mode_count() const { return S2.cols(); }
   Eigen::Index velocity_count() const { return 6 + mode_count(); }
-  /// Root mean square distance of the mass from the origin: what a radian weighs in metres.
+  /// Root mean square distance of the mass from the origin, m: the length that corresponds to a
+  /// radian.
   double radius_m() const;
   bool stiffens() const { return slopes.S2.size() > 0; }
 
@@ -30,15 +31,15 @@ struct BodyConstants {
   Eigen::Matrix3Xd N0;
   Eigen::MatrixXd N;  ///< (3m, m): column j holds N_j1 … N_jm
   Eigen::MatrixXd Maa;
-  InertiaSlopes slopes;  ///< empty without stress stiffening, whose share in G is in G
+  InertiaSlopes slopes;  ///< empty without stress stiffening; their part of G is in G
   ModalSprings springs;
 };
 
-/// What depends on a body's state. V = [xdot (world); w (body axes); adot].
+/// State-dependent terms of a body's equations. V = [xdot (world); w (body axes); adot].
 struct BodyTerms {
   explicit BodyTerms(const BodyConstants& body);
 
-  // Of the configuration:
+  // Terms that depend on the configuration:
   Eigen::Vector3d x = Eigen::Vector3d::Zero();      ///< origin, world
   Eigen::Matrix3d A = Eigen::Matrix3d::Identity();  ///< body axes to world
   Eigen::VectorXd a;                                ///< modal coordinates
@@ -49,15 +50,15 @@ struct BodyTerms {
   Eigen::Matrix3Xd N;    ///< (3, m): N(a)
   Eigen::MatrixXd mass;  ///< (6+m, 6+m), both triangles
 
-  // Of the velocities besides:
+  // Terms that depend on the velocities, too:
   Eigen::VectorXd u;           ///< (6+m): right-hand side of eq. (8)
   Eigen::VectorXd work_modes;  ///< scratch
 };
 
-/// Section 2: everything that depends on the configuration, from x, A and a in `terms`.
+/// Section 2: updates all terms that depend on the configuration, from x, A and a in `terms`.
 void update_configuration(const BodyConstants& body, BodyTerms& terms);
 
-/// Section 3: inertial, elastic, damping and gravity terms of u; what forces add comes later.
+/// Section 3: sets the inertial, elastic, damping and gravity terms of u; forces are added later.
 void update_right_hand_side(const BodyConstants& body, const Eigen::Vector3d& gravity_m_s2,
                             const Eigen::Ref<const Eigen::VectorXd>& velocity, BodyTerms& terms);
 

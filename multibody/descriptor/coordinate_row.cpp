@@ -37,7 +37,7 @@ double velocity_residual(const NodeKinematics& i, const NodeKinematics& j,
 }
 
 double gamma(const NodeKinematics& i, const NodeKinematics& j, const CoordinateRow& row) {
-  // h' = Om_i x h, and h'' = Om_i' x h + Om_i x h', of which arm has the first part.
+  // h' = Om_i x h, and h'' = Om_i' x h + Om_i x h', the first part of which is in arm.
   const Vector3d turning = i.Om.cross(row.h);
   const double along = row.h.dot(j.gp - i.gp) - row.arm.dot(i.gr) - 2 * turning.dot(i.pd - j.pd) -
                        i.Om.cross(turning).dot(i.p - j.p);

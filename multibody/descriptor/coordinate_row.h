@@ -8,10 +8,10 @@
 
 namespace flexneck::multibody {
 
-/// A row on a joint's coordinates, the distance s and the angle theta of marker j along and about
-/// the axis of marker i: Phi = f - per_distance s - per_angle theta. A screw joint has f = 0, of a
-/// motor f is its path. Angles count in turns that the residual leaves open: it is the remainder
-/// of per_angle full turns.
+/// A constraint row on a joint's coordinates, the distance s and the angle theta of marker j along
+/// and about the axis of marker i: Phi = f - per_distance s - per_angle theta. For a screw joint f
+/// = 0, for a motor f is its path. The residual does not count turns: it is the remainder modulo
+/// per_angle full turns.
 struct CoordinateRow {
   double per_distance = 0;
   double per_angle = 0;
@@ -21,16 +21,19 @@ struct CoordinateRow {
   Eigen::Vector3d arm = Eigen::Vector3d::Zero();  ///< h x (p_i - p_j)
 };
 
-/// That of a screw joint, and those of a joint's motors. @param joint must outlive them
+/// The rows of a joint: that of a screw joint, and those of its motors.
+/// @param joint must outlive the rows
 std::vector<CoordinateRow> coordinate_rows(const Joint& joint);
 
-/// h and arm. @param axis in the axes of both markers @return Phi
+/// Updates h and arm.
+/// @param axis in the axes of both markers
+/// @return Phi
 double update_configuration(const Eigen::Vector3d& axis, const NodeKinematics& i,
                             const NodeKinematics& j, CoordinateRow& row);
 /// Rate of Phi.
 double velocity_residual(const NodeKinematics& i, const NodeKinematics& j,
                          const CoordinateRow& row);
-/// B Vdot = gamma .
+/// Right-hand side gamma of B Vdot = gamma.
 double gamma(const NodeKinematics& i, const NodeKinematics& j, const CoordinateRow& row);
 
 }  // namespace flexneck::multibody

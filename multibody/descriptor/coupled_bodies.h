@@ -8,8 +8,8 @@
 
 namespace flexneck::multibody {
 
-/// The velocities of each free body, coupled with those of all that joints or force elements tie to
-/// it.
+/// The velocity block of each free body, with the blocks of all bodies that joints or force
+/// elements couple with it.
 std::vector<Equations::VelocityBlock> coupled_bodies(const System& system, const ForceSet& forces);
 
 }  // namespace flexneck::multibody

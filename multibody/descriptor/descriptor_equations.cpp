@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// pdd = P Vdot + gp, Omd = W Vdot + gr.
+/// Motion of a marker: pdd = P Vdot + gp, Omd = W Vdot + gr.
 MarkerState marker_state(const EquationsOfMotion& equations, std::size_t index) {
   const System& system = equations.system();
   const NodeKinematics& motion = equations.marker(index);
@@ -100,7 +100,7 @@ class DescriptorEquations final : public Equations {
   void settle(double time_s, Vector& state, RunWatch& watch) override {
     equations_.relax();
     Vector positions = state.head(system_.position_count);
-    // The prescribed bodies may have moved on.
+    // The prescribed bodies may have moved since.
     projection_.converge_positions(time_s, positions);
     state.head(system_.position_count) =
         settled_positions(equations_, positions, time_s, [&](const Vector& there) {
@@ -201,7 +201,8 @@ class DescriptorEquations final : public Equations {
   }
   void given_velocities(std::vector<bool>& given) override { equations_.given_velocities(given); }
 
-  /// The velocities are those of the step: only an explicit one has put them onto the joints.
+  /// Checks a step. An implicit step's velocities need not satisfy the joints: only an explicit
+  /// step projects them.
   void accept(double time_s, const Vector& state, RunWatch& watch) override {
     update(time_s, state);
     equations_.count_turns();
@@ -225,8 +226,8 @@ class DescriptorEquations final : public Equations {
   Energies energies(const Vector& state) const override { return energies_of(equations_, state); }
 
   void record(double time_s, Vector& state, Recorder& recorder, Index column) override {
-    // The correction is of the size of the interpolation's error: with the factors from before it,
-    // velocities and accelerations are as exact as the interpolated state.
+    // The correction is of the size of the interpolation's error: with the factors of the
+    // uncorrected state, velocities and accelerations are as accurate as the interpolated state.
     equations_.give_internal(state);
     projection_.apply(time_s, state, false);
     equations_.solve();
@@ -265,15 +266,16 @@ class DescriptorEquations final : public Equations {
         recorder.joint_angle(column, k, equations_.joint_angle(k).angle_rad);
   }
 
-  /// Motion of bodies and of the markers that joints and forces touch. Nothing is factorised.
+  /// Updates the motion of the bodies and of the markers of joints and forces. Nothing is
+  /// factorised.
   void update(double time_s, const Vector& state) {
     equations_.update_positions(time_s, state.head(system_.position_count));
     equations_.update_velocity_residual(
         state.segment(system_.position_count, system_.velocity_count));
   }
 
-  /// Checks the joints in the present configuration. @param visit  called with the residuals of
-  /// each joint first
+  /// Checks the joints in the present configuration.
+  /// @param visit  called first with the residuals of each joint
   template <class Visit>
   void check_joints(double time_s, const Visit& visit) {
     for (const Joint& joint : system_.joints)
@@ -292,8 +294,8 @@ class DescriptorEquations final : public Equations {
     }
   }
 
-  /// A reaction's component is left open if some multipliers that move nothing, B^T lambda = 0,
-  /// have it.
+  /// Records which components of reactions are undetermined: those in which some multipliers
+  /// without effect on the motion, B^T lambda = 0, take part.
   void record_undetermined(Recorder& recorder) const {
     const KktSolver& solver = equations_.solver();
     const Eigen::MatrixXd free = free_multipliers(equations_);

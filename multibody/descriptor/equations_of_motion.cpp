@@ -195,7 +195,8 @@ void EquationsOfMotion::apply_forces() {
   for (std::size_t k = 0; k < touched.size(); ++k) {
     const std::size_t b = system_.markers[touched[k]].free_body;
     if (b == kNone) continue;
-    // P^T F + W^T T is section 3's F, ~s A^T F + A^T T, psi^T A^T F + mu^T J_l^T A^T T.
+    // P^T F + W^T T are the terms of section 3: F, ~s A^T F + A^T T, psi^T A^T F + mu^T J_l^T A^T
+    // T.
     const FreeBody& body = system_.bodies[b];
     const NodeKinematics& motion = markers_[touched[k]];
     auto load = right_hand_side_.segment(body.velocity, body.constants.velocity_count());
@@ -277,8 +278,8 @@ void EquationsOfMotion::remove_residual(const VectorXd& residual, VectorXd& chan
   solver_.solve(change, scratch_);
 }
 
-/// [M B^T; B 0] [V; .] = [M Z; 0] takes from velocities Z all that the constraints hold: of numbers
-/// Z without a pattern nothing is left where there is no freedom.
+/// [M B^T; B 0] [V; .] = [M Z; 0] removes from velocities Z their constrained part: from numbers Z
+/// without a pattern, zero remains where there is no freedom.
 void EquationsOfMotion::given_velocities(std::vector<bool>& given) {
   constexpr double kNothing = 1e-6;
   const auto number = [](Index k) { return 1.5 + std::sin(1e3 * static_cast<double>(k + 1)); };
@@ -353,8 +354,8 @@ double EquationsOfMotion::work_W() const {
           joint.coordinates[c].rate *
           multipliers_[solver_.joint_offset(k) + joint.first_coordinate() + static_cast<Index>(c)];
   }
-  // What prescribed bodies do at the place of marker j, where the reaction acts. Body i bears -f, j
-  // +f.
+  // Adds the power of the prescribed bodies at the origin of marker j, where the reaction acts: -f
+  // on body i, +f on body j.
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     if (system_.places[k].body_i != kNone && system_.places[k].body_j != kNone) continue;
     const NodeKinematics& i = markers_[system_.joints[k].marker_i];

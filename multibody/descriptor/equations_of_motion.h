@@ -23,48 +23,48 @@ class EquationsOfMotion {
   /// @param system  must outlive this
   explicit EquationsOfMotion(const System& system, Drive drive = Drive::prescribed);
 
-  /// Tables are read inside of this interval only, so that at its ends a jump shows its inner side.
+  /// Restricts the reading of tables to this interval: a jump at its ends then shows its inner
+  /// side.
   void set_interval(double begin_s, double end_s);
 
-  /// Configuration, mass matrices, constraint rows and their factors.
+  /// Updates the configuration, mass matrices and constraint rows, and factorises.
   void set_positions(double time_s, const ConstVector& positions);
-  /// The same without the factors: what is solved next uses those of the last configuration that
-  /// was factorised.
+  /// As set_positions(), without the factors: solutions use those of the last factorised
+  /// configuration.
   void update_positions(double time_s, const ConstVector& positions);
   void factorise();
-  /// Velocity residuals alone.
+  /// Updates the velocity residuals alone.
   void update_velocity_residual(const ConstVector& velocities);
-  /// Right-hand sides and velocity residuals.
+  /// Updates right-hand sides and velocity residuals.
   void set_velocities(const ConstVector& velocities);
-  /// Accelerations and multipliers.
+  /// Solves for accelerations and multipliers.
   void solve();
-  // What set_velocities() takes the internal variables of force elements to be; see ForceSet.
+  // These choose the internal variables of force elements for set_velocities(); see ForceSet.
   void relax() { forces_.relax(); }
   void give_internal(const ConstVector& state) { forces_.give_internal(system_.internal(state)); }
   void begin_step(const ConstVector& state, const ConstVector& rate, double length_s) {
     forces_.begin_step(system_.internal(state), system_.internal(rate), length_s);
   }
 
-  /// Rate of the whole state (System::state_count()): all three steps.
+  /// Computes the rate of the whole state (System::state_count()) by all three steps.
   void evaluate(double time_s, const ConstVector& state, Eigen::VectorXd& rate);
-  /// The same once positions and velocities are updated.
+  /// As evaluate(), with positions and velocities already updated.
   void evaluate_updated(const ConstVector& state, Eigen::VectorXd& rate);
-  /// The rate of a state that was updated, whose accelerations and multipliers are known.
+  /// Fills in the rate of an updated state from known accelerations and multipliers.
   void fill_rate(const ConstVector& state, const ConstVector& accelerations,
                  Eigen::VectorXd& rate) const;
 
-  /// What accelerations and multipliers leave of the equations of motion, M V' + B^T lambda - u,
-  /// above what the positions leave of the constraints, at the end of the step that begin_step()
-  /// told. Nothing is factorised.
+  /// Residual of the equations of motion for given accelerations and multipliers, M V' + B^T lambda
+  /// - u, above the position residual of the constraints, at the end of the step of begin_step().
+  /// Nothing is factorised.
   void residual(double time_s, const ConstVector& state, const ConstVector& accelerations,
                 const ConstVector& multipliers, Eigen::VectorXd& residual);
 
   /// Solves [M B^T; B 0] [change; .] = [0; -residual]: the smallest change in the mass metric.
   void remove_residual(const Eigen::VectorXd& residual, Eigen::VectorXd& change);
-  /// Sets which velocities the constraints of the last factorisation leave no freedom, body by
-  /// body.
+  /// Marks the velocities that the constraints of the last factorisation determine, body by body.
   void given_velocities(std::vector<bool>& given);
-  /// Markers that neither joint nor force touches, after set_velocities().
+  /// Updates markers that neither joint nor force touches, after set_velocities().
   void update_idle_markers(const ConstVector& velocities);
 
   const System& system() const { return system_; }
@@ -80,14 +80,15 @@ class EquationsOfMotion {
   const KktSolver& solver() const { return solver_; }
   Reaction joint_reaction(std::size_t joint) const;
   const ForceSet& forces() const { return forces_; }
-  /// The angle of a joint that has one, counted on to the present motion from where turns were
-  /// counted last.
+  /// The angle of a joint that has one, in the present motion, continued from the last count of
+  /// turns.
   CountedAngle joint_angle(std::size_t joint) const;
-  /// Counts turns on to the present motion. Until then a joint's angle starts where the model says.
+  /// Counts turns up to the present motion. Before the first count a joint's angle starts at the
+  /// model's start angle.
   void count_turns();
-  /// Takes over what another one of the same system has counted.
+  /// Copies the counted turns from another object of the same system.
   void take_turns(const EquationsOfMotion& other);
-  /// The multipliers are known only after solve().
+  /// Power dissipated; needs the multipliers of solve().
   double dissipation_W(const ConstVector& velocities) const;
   double work_W() const;
   int evaluations() const { return evaluations_; }
@@ -117,7 +118,7 @@ class EquationsOfMotion {
   Eigen::VectorXd position_residual_, velocity_residual_;
   Eigen::VectorXd accelerations_, multipliers_;
   Eigen::VectorXd scratch_;
-  Eigen::VectorXd probe_, lengths_m_;  ///< of given_velocities()
+  Eigen::VectorXd probe_, lengths_m_;  ///< for given_velocities()
   int evaluations_ = 0;
 };
 

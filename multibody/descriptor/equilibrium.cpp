@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Of gravity, strain and the forces at time zero, for equations as solved.
+/// Potential energy of gravity, strain and the forces at time zero, for solved equations.
 double potential_energy(const EquationsOfMotion& equations) {
   const System& system = equations.system();
   double energy = 0;
@@ -30,7 +30,7 @@ double potential_energy(const EquationsOfMotion& equations) {
   return energy + equations.forces().potential_J();
 }
 
-/// The descriptor form's coordinates of the search.
+/// The equilibrium search in the coordinates of the descriptor form.
 class DescriptorRest final : public RestProblem {
  public:
   DescriptorRest(EquationsOfMotion& equations, VectorXd positions, double time_s)

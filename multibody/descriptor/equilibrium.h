@@ -10,23 +10,23 @@
 
 namespace flexneck::multibody {
 
-/// Positions of the free bodies at rest relative to the prescribed ones, held where they are at
-/// time zero, under gravity and the forces at time zero: a minimum of the potential energy, sought
-/// from the poses that the bodies are given.
+/// Positions of the free bodies at rest relative to the prescribed ones, which are fixed where they
+/// are at time zero, under gravity and the forces at time zero: a minimum of the potential energy,
+/// sought from the bodies' initial poses.
 /// @param equations  with Drive::held
-/// @throws InputError as join(), or if a free body hangs on no prescribed one.
+/// @throws InputError as join(), or if a free body is connected to no prescribed one.
 /// @throws ComputationError if there is none within reach.
 Eigen::VectorXd equilibrium_positions(const Model& model, EquationsOfMotion& equations);
 
-/// The same at another time, sought from positions on the joints there.
-/// @param moved  called with the positions behind each move; may be empty
+/// As equilibrium_positions() at another time, sought from positions that satisfy the joints then.
+/// @param moved  called with the positions after each move; may be empty
 Eigen::VectorXd settled_positions(EquationsOfMotion& equations, const Eigen::VectorXd& positions,
                                   double time_s,
                                   const std::function<void(const Eigen::VectorXd&)>& moved = {});
 
-/// Velocities of the free bodies that move with the prescribed ones at their initial velocity, as
-/// System lays them out.
-/// @throws InputError if a body hangs on prescribed ones of different velocity, or on none.
+/// Velocities of the free bodies when they move with the prescribed ones at their initial velocity,
+/// in the layout of System.
+/// @throws InputError if a body is connected to prescribed ones of different velocity, or to none.
 Eigen::VectorXd carried_velocities(const Model& model, const System& system);
 
 }  // namespace flexneck::multibody

@@ -21,7 +21,7 @@ void check_all_positions(const Model& model, const EquationsOfMotion& equations)
   }
 }
 
-/// Largest speed of a marker that a joint holds.
+/// Largest speed of a marker of a joint.
 double largest_speed(const EquationsOfMotion& equations) {
   const double size = equations.system().size_m;
   double speed = 0;
@@ -56,8 +56,8 @@ void check_all_velocities(const Model& model, const EquationsOfMotion& equations
   }
 }
 
-/// Brings the velocities that are open onto the joints by the smallest change in the mass metric:
-/// given ones count as immovable.
+/// Makes the open velocities satisfy the joints by the smallest change in the mass metric; given
+/// velocities are not changed.
 void fit_open_velocities(const Model& model, EquationsOfMotion& equations,
                          Eigen::Ref<VectorXd> velocities) {
   const System& system = equations.system();

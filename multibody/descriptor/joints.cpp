@@ -90,8 +90,8 @@ Index translation_row_count(TranslationConstraint held) {
   throw std::logic_error("unknown rows of a position");
 }
 
-/// Unit vectors that turn with marker i, along which a gap is held where the markers may part, in
-/// its axes; zero beyond the rows that there are.
+/// Unit vectors fixed to marker i along which a gap is constrained in joints whose markers may
+/// separate, in its axes; unused rows are zero.
 TwoRows held_directions(const Joint& joint) {
   if (joint.kind->translation == TranslationConstraint::across_axis) return across(joint.axis);
   TwoRows along = TwoRows::Zero();
@@ -99,17 +99,19 @@ TwoRows held_directions(const Joint& joint) {
   return along;
 }
 
-/// Marker j may slide on i, along an axis or in a plane.
+/// True if marker j may slide on i, along an axis or in a plane.
 bool slides(const JointRows& joint) {
   return joint.translation == TranslationConstraint::across_axis ||
          joint.translation == TranslationConstraint::along_axis;
 }
 
-/// Of a marker that is on one that slides, or at a distance.
+/// True if the residual is a component of the gap, for sliding joints, or its length, for distance
+/// joints.
 bool is_part_of_gap(const JointRows& joint) {
   return joint.translation_rows == 1 || joint.translation_rows == 2;
 }
 
+/// Fills a column of B^T with a coordinate row's part of one body.
 /// @param sign  1 for marker i, whose rotation moves the axis, -1 for marker j
 void fill_row(const NodeKinematics& node, const CoordinateRow& row, double sign, Index column,
               TransposedRows& B) {
@@ -162,7 +164,7 @@ void update_configuration(const NodeKinematics& i, const NodeKinematics& j, Join
   const Index n = joint.translation_rows;
   const Vector3d gap = i.p - j.p;
   if (slides(joint)) {
-    // D turns with marker i.
+    // D rotates with marker i.
     joint.D.topRows<2>().noalias() = joint.held_i * i.R.transpose();
     for (Index r = 0; r < 2; ++r) joint.L.row(r) = Vector3d(joint.D.row(r)).cross(gap).transpose();
   }
@@ -199,7 +201,7 @@ void update_velocities(const NodeKinematics& i, const NodeKinematics& j, JointRo
   const Index n = joint.translation_rows;
   joint.gamma.head(n) = joint.D.topRows(n) * (j.gp - i.gp);
   if (slides(joint)) {
-    // With d' = Om_i x d: (d . gap)'' has 2 d' . gap' and d'' . gap besides.
+    // With d' = Om_i x d, (d . gap)'' also has the terms 2 d' . gap' and d'' . gap.
     const Vector3d parting = i.pd - j.pd;
     const Vector3d gap = i.p - j.p;
     for (Index r = 0; r < n; ++r) {
@@ -211,7 +213,7 @@ void update_velocities(const NodeKinematics& i, const NodeKinematics& j, JointRo
   if (joint.rotation.count > 0)
     joint.gamma.segment<3>(n) = joint.T * (j.gr - i.gr) + joint.rotation.bias(i, j, joint);
   if (joint.translation == TranslationConstraint::distance) {
-    // (|gap|)'' has besides what the gap's turning adds.
+    // (|gap|)'' also has the term of the gap's rotation.
     const Vector3d parting = i.pd - j.pd;
     const Vector3d gap = i.p - j.p;
     joint.gamma[0] -= (parting.squaredNorm() - square(joint.velocity_residual[0])) / gap.norm();

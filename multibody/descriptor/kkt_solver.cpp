@@ -15,9 +15,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Shares of their diagonals to which pivots of S fall: a row that is left out may have become
-/// independent above the first (the square of kDependent); below the second a kept row has lost
-/// half of its digits.
+/// Thresholds of the pivots of S as fractions of their diagonals: above the first (the square of
+/// kDependent) a row that is left out may have become independent; below the second a kept row has
+/// lost half of its digits.
 constexpr double kIndependent = 1e-11;
 constexpr double kLost = 1e-8;
 
@@ -96,7 +96,7 @@ void KktSolver::factorise_bodies() {
     factorise_cholesky(factor);
     if (std::isfinite(factor.diagonal().sum())) continue;
     are_definite = false;
-    // Above the diagonal the mass matrix is still there.
+    // The mass matrix is still there above the diagonal.
     const Eigen::MatrixXd above = factor.triangularView<Eigen::StrictlyUpper>();
     if (above.allFinite()) indefinite_body_ = b;
   }
@@ -126,7 +126,7 @@ void KktSolver::assemble_schur_complement() {
     const TransposedRows& Y_row = meeting.row_is_i ? row.Y_i : row.Y_j;
     const TransposedRows& Y_column = meeting.column_is_i ? column.Y_i : column.Y_j;
     Block& sum = block(meeting.row_joint, meeting.column_joint);
-    // A column at a time stays in registers.
+    // One column at a time stays in registers.
     for (Index c = 0; c < kMaxRows; ++c) {
       RowVector column_sum = RowVector::Zero();
       for (Index k = 0; k < Y_row.rows(); ++k)
@@ -160,11 +160,11 @@ KktSolver::Pivots KktSolver::factorise_schur_complement() {
   return pivots;
 }
 
-/// As factorise_cholesky, but for rows that are left out: with a zero in place of the pivot's
-/// inverse and of its column, solving gives them a zero.
+/// As factorise_cholesky, except for rows that are left out: the pivot's inverse and its column are
+/// set to zero, so that their solution is zero.
 void KktSolver::factorise_diagonal(const JointBlock& joint, const RowVector& before,
                                    Block& diagonal, Pivots& pivots) {
-  // Padding: rows that the joint lacks are zero.
+  // Padding: rows that the joint does not have are zero.
   for (Index r = joint.place.rows; r < kMaxRows; ++r) diagonal(r, r) = 1;
   for (Index k = 0; k < kMaxRows; ++k) {
     const bool left_out = joint.left_out[static_cast<std::size_t>(k)];
@@ -201,8 +201,8 @@ double KktSolver::length_m(const VectorXd& z) const {
   return std::sqrt(squares);
 }
 
-/// A row less the combination of kept ones that is nearest in the mass metric: no combination
-/// leaves more than the nearest one in metres would have to.
+/// Subtracts from each row that is left out the combination of kept rows that is nearest in the
+/// mass metric: its remainder in metres is not less than that of the combination nearest in metres.
 bool KktSolver::left_out_depend() {
   for (const JointBlock& joint : joints_)
     for (Index r = 0; r < joint.place.rows; ++r) {

@@ -21,18 +21,18 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Moments of inertia up to this, of m l^2, count as none (synthetic: the rounding of a tensor that
-/// was turned and moved some hundred times).
+/// Moment of inertia up to which it counts as zero, as a fraction of m l^2 (synthetic: the rounding
+/// of a tensor that was rotated and moved some hundred times).
 constexpr double kNoInertia = 1e-13;
-/// A joint that a unit rotation moves by less, of l, does not hold it.
+/// Fraction of l: a joint that a unit rotation moves by less does not constrain it.
 constexpr double kHeld = 1e-6;
 
-/// Whether all moments are there whatever l is: no body reaches further than twice the size.
+/// Returns whether all moments count whatever l is: no body extends further than twice the size.
 bool is_massive(const RigidBody& body, const Vector3d& moments, double size_m) {
   return moments[0] > kNoInertia * body.mass_kg * 4 * size_m * size_m;
 }
 
-/// l in the header.
+/// The length l of the header.
 double length_m(const Model& model, std::size_t body, double size_m) {
   const Vector3d& center = std::get<RigidBody>(model.bodies[body].kind).center_m;
   double length = center.norm();
@@ -45,7 +45,7 @@ double length_m(const Model& model, std::size_t body, double size_m) {
 
 /// A rotation of a free body about an axis through its centre of mass without inertia.
 struct MasslessRotation {
-  std::size_t body;  ///< among the system's
+  std::size_t body;  ///< index among the system's
   Vector3d axis;     ///< body axes
   double length_m;
 };
@@ -66,7 +66,7 @@ std::vector<MasslessRotation> massless_rotations(const System& system) {
   return found;
 }
 
-/// What a unit rotation moves in the joints' rows, distances in units of l.
+/// Motion of the joints' rows by a unit rotation, distances in units of l.
 VectorXd moved_rows(const EquationsOfMotion& equations, const MasslessRotation& rotation) {
   const System& system = equations.system();
   const std::size_t index = system.bodies[rotation.body].index;
@@ -98,7 +98,7 @@ VectorXd moved_rows(const EquationsOfMotion& equations, const MasslessRotation& 
   for (std::size_t k = 0; k < rotations.size(); ++k)
     if (rotations[k].body == body) axis += shares[static_cast<Index>(k)] * rotations[k].axis;
   axis.normalize();
-  // Rounding is not shown, nor which of both ways the axis points.
+  // Rounding and the sign of the axis are not shown.
   Index main = 0;
   axis.cwiseAbs().maxCoeff(&main);
   if (axis[main] < 0) axis = -axis;
@@ -132,7 +132,7 @@ void check_massless_rotations(const Model& model) {
   MatrixXd moved(system.constraint_count, count);
   for (Index k = 0; k < count; ++k)
     moved.col(k) = moved_rows(equations, rotations[static_cast<std::size_t>(k)]);
-  // Velocities that move no mass must move a joint, or M and B leave them open together.
+  // Velocities without kinetic energy must move a joint, otherwise M and B leave them undetermined.
   const auto [values, vectors] = symmetric_pairs(moved.transpose() * moved);
   if (values[0] <= kHeld * kHeld) refuse(system, rotations, vectors.col(0));
 }

@@ -10,18 +10,19 @@
 namespace flexneck::multibody {
 
 // Rigid bodies may lack inertia about axes through their centre of mass: point masses, thin rods.
-// Joints have to hold such a rotation. A moment counts as none up to 1e-13 m l^2, rounding of what
-// the body's inertia is about its joints, with l the largest distance of its centre of mass from
-// its origin and its joints.
+// Joints must constrain such a rotation. A moment counts as zero up to 1e-13 m l^2, the rounding of
+// the body's inertia about its joints, with l the largest distance of its centre of mass from its
+// origin and its joints.
 
-/// The inertia about the centre of mass with moments that are none raised to that bound: changes
-/// nothing that moves, and leaves a mass matrix that can be factorised. Others stay as they are.
+/// The inertia about the centre of mass with zero moments raised to that bound, which does not
+/// affect the motion but makes the mass matrix factorisable. Other moments are unchanged.
 /// @param body    index of a rigid body
-/// @param size_m  the model's, which counts for l where that is zero
+/// @param size_m  size of the model, used for l if that is zero
 Eigen::Matrix3d raised_inertia(const Model& model, std::size_t body, double size_m);
 
-/// @throws InputError naming a body and an axis about which it has no inertia and no joint holds
-/// it, where the bodies are at the start: its equations of motion are singular.
+/// Checks that joints constrain every rotation without inertia, with the bodies at their start.
+/// @throws InputError naming a body and an axis about which it has no inertia and no joint
+/// constrains it: its equations of motion are singular.
 void check_massless_rotations(const Model& model);
 
 }  // namespace flexneck::multibody

@@ -11,8 +11,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// The share of a row across the others that counts as misalignment: parts are aligned to about
-/// half a degree.
+/// Fraction of a row independent of the others below which it counts as misalignment: parts are
+/// aligned to about half a degree.
 constexpr double kAlignment = 1e-2;
 
 /// Calls visit(joint, row of the joint, row among all).

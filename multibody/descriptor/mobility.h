@@ -8,15 +8,16 @@
 
 namespace flexneck::multibody {
 
-/// The multipliers that move nothing, of the last factorisation: a column for each redundant row.
+/// Multipliers without effect on the motion, of the last factorisation: a column for each redundant
+/// row.
 Eigen::MatrixXd free_multipliers(const EquationsOfMotion& equations);
 
-/// Why motors and joints cannot hold together: motors whose freedom other motors or joints give or
-/// hold already. Empty if there are none.
+/// Message on motors whose freedom other motors prescribe or joints constrain already. Empty if
+/// there are none.
 std::string contradictory_motors(const EquationsOfMotion& equations);
 
-/// Rows that are kept though others hold nearly the same: each takes a freedom that a slight
-/// misalignment decides. And a model that joints hold more than once and lock.
+/// Warnings on kept rows that nearly depend on others: each removes a degree of freedom that a
+/// slight misalignment decides; and on a model that redundant joints lock.
 std::vector<std::string> doubts_of_mobility(const EquationsOfMotion& equations);
 
 }  // namespace flexneck::multibody

@@ -9,7 +9,7 @@
 
 namespace flexneck::multibody {
 
-/// Where a marker sits on its body; psi and mu have a column for each mode of the body.
+/// Placement of a marker on its body; psi and mu have a column for each mode of the body.
 struct NodeConstants {
   /// @throws InputError if the body has no interface of the marker's name.
   NodeConstants(const Body& body, const Marker& marker);
@@ -19,7 +19,7 @@ struct NodeConstants {
   Eigen::Matrix3Xd mu;
   NodeSlopes slopes;   ///< empty without stress stiffening
   Eigen::Matrix3d R0;  ///< marker axes to node axes
-  bool moves = false;  ///< with the modes
+  bool moves = false;  ///< it moves with the modes
 };
 
 /// A marker's motion, equations.md section 4: pdd = P Vdot + gp, Omd = W Vdot + gr. On a prescribed
@@ -27,7 +27,7 @@ struct NodeConstants {
 struct NodeKinematics {
   explicit NodeKinematics(Eigen::Index velocity_count);
 
-  // Of the configuration:
+  // Terms that depend on the configuration:
   Eigen::Vector3d theta;   ///< nodal rotation vector, body axes
   Eigen::Vector3d s;       ///< position, body axes
   Eigen::Vector3d p;       ///< position, world
@@ -38,14 +38,14 @@ struct NodeKinematics {
   Eigen::Matrix3Xd mu;     ///< (3, m): mu(a)
   Eigen::Matrix3Xd Jl_mu;  ///< (3, m)
 
-  // Of the velocities besides:
+  // Terms that depend on the velocities, too:
   Eigen::Vector3d pd;  ///< velocity, world
   Eigen::Vector3d Om;  ///< angular velocity, world
   Eigen::Vector3d gp;
   Eigen::Vector3d gr;
 };
 
-/// From x, A and a in `body`.
+/// Updates the configuration from x, A and a in `body`.
 void update_configuration(const NodeConstants& node, const BodyTerms& body, NodeKinematics& motion);
 void update_velocities(const NodeConstants& node, const BodyTerms& body,
                        const Eigen::Ref<const Eigen::VectorXd>& velocity, NodeKinematics& motion);

@@ -21,11 +21,11 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Extent of the displacements that differences are taken over: their error, of second order in it,
-/// and rounding are then both about 1e-11 of the result.
+/// Extent of the displacements of the finite differences: their error, of second order in it, and
+/// rounding are then both about 1e-11 of the result.
 constexpr double kDifference = 1e-5;
 
-/// Constraints that do not depend on others.
+/// Indices of constraints that do not depend on others.
 std::vector<Index> independent(const EquationsOfMotion& equations) {
   const KktSolver& solver = equations.solver();
   std::vector<Index> rows;
@@ -75,7 +75,7 @@ ReducedDynamics::ReducedDynamics(EquationsOfMotion& equations, const VectorXd& p
   equations_.relax();
   equations_.set_positions(time_s_, origin_);
   if (origin_.size() == 0) return;
-  // With M = L L^T the null space of B L^-T is what a QR of its transpose leaves over.
+  // With M = L L^T the null space of B L^-T is the orthogonal complement in a QR of its transpose.
   const System& system = equations_.system();
   SparseMatrix mass(system.velocity_count, system.velocity_count);
   SparseMatrix all_rows(system.velocity_count, system.constraint_count);
@@ -130,7 +130,7 @@ ReducedDynamics ReducedDynamics::turned(double time_s) const {
     const Eigen::Quaterniond after = q * before;
     place[3] = after.w();
     place.tail<3>() = after.vec();
-    // Forces and accelerations of the origin are in world axes, all else is in the body's.
+    // Forces on and accelerations of the origin are in world axes, all else is in the body's.
     for (MatrixXd* each : {&result.N_, &result.MN_})
       each->middleRows<3>(body.velocity) = R * each->middleRows<3>(body.velocity);
   }

@@ -22,7 +22,7 @@ constexpr std::array<const char*, kComponents> kNames = {
 StateError::StateError(const System& system, double relative, double absolute)
     : system_(system), tolerance_{relative, absolute} {}
 
-/// Speed of the fastest turning or deforming body, m/s.
+/// Speed of the body that rotates or deforms fastest, m/s.
 double StateError::fastest(const VectorXd& state) const {
   double speed = 0;
   for (const FreeBody& body : system_.bodies) {

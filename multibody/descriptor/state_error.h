@@ -29,7 +29,7 @@ class StateError {
 
   ErrorEstimate operator()(const Eigen::VectorXd& begin, const Eigen::VectorXd& end,
                            const Eigen::VectorXd& error) const;
-  /// E.g. "rotation of body 'head'".
+  /// Name of a component, e.g. "rotation of body 'head'".
   std::string name_of(std::size_t component) const;
 
  private:

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 constexpr std::size_t kNone = JointPlace::kNoBody;
 
-/// A rigid or deformable body's constants; a prescribed one has none.
+/// Visitor that returns a rigid or deformable body's constants; a prescribed one has none.
 struct ConstantsOf {
   std::vector<BodyConstants> operator()(const RigidBody& body) const {
     return {BodyConstants(body)};

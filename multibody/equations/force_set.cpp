@@ -168,7 +168,7 @@ void ForceSet::evaluate(double time_s) {
       }
     }
   });
-  // What loads give to prescribed bodies, the others do not get.
+  // Power that loads give to prescribed bodies is not given to the others.
   for (std::size_t k = 0; k < slots_.size(); ++k)
     if (prescribed_[k])
       sums_.work_W -= slots_[k].force_N.dot(slots_[k].v) + slots_[k].moment_Nm.dot(slots_[k].w);

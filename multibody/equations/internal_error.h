@@ -11,9 +11,9 @@
 
 namespace flexneck::multibody {
 
-/// Errors of internal variables of force elements: against the tolerance as positions are,
-/// distances against the system's size and angles against a radian.
-/// @param first_component  of the first block; one each
+/// Adds the errors of internal variables of force elements to an estimate, with the tolerance of
+/// positions: distances relative to the system's size, angles to a radian.
+/// @param first_component  component of the first block; each block has one
 template <class Segment>
 void consider_internal(const Segment& error, const std::vector<InternalBlock>& blocks,
                        double size_m, const Tolerance& tolerance, std::size_t first_component,

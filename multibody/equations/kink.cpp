@@ -14,7 +14,7 @@ OpenSlits::OpenSlits(std::string name, const ModalSprings& springs, const Eigen:
 
 std::string kink_between(const ForceSet& forces, const RatesAndPieces& ahead,
                          const Eigen::VectorXd& at_state, const RatesAndPieces& behind) {
-  // Smooth loads differ by the differences' extent, 1e-5, relative to their slope.
+  // Smooth loads differ relative to their slope by the extent of the differences, 1e-5.
   constexpr double kSmooth = 1e-3;
   const auto piece = std::ranges::mismatch(ahead.pieces, behind.pieces).in1;
   const auto slits = std::ranges::mismatch(ahead.slits, behind.slits).in1;

@@ -11,7 +11,7 @@
 
 namespace flexneck::multibody {
 
-/// Which slits of a deformable body are open.
+/// Flags of the open slits of a deformable body.
 struct OpenSlits {
   std::string body;
   std::vector<bool> open;
@@ -21,17 +21,17 @@ struct OpenSlits {
   bool operator==(const OpenSlits&) const = default;
 };
 
-/// Rates of a state, and what tells the smooth pieces of its loads apart.
+/// Rates of a state, and identifiers of the smooth pieces of its loads.
 struct RatesAndPieces {
   Eigen::VectorXd rates;
-  std::vector<int> pieces;       ///< of force elements, ForceSet::pieces()
-  std::vector<OpenSlits> slits;  ///< of the deformable bodies whose slits open and close
+  std::vector<int> pieces;       ///< pieces of force elements, ForceSet::pieces()
+  std::vector<OpenSlits> slits;  ///< deformable bodies whose slits open and close
 };
 
-/// What has a kink at a state, where derivatives by central differences are the mean of both sides:
-/// a force element that is on different pieces ahead and behind, or a body whose slits are open on
-/// one side only, where differences to the one side and to the other are not the same. Empty if
-/// nothing has.
+/// Name of a force element or body with a kink at a state, where derivatives by central differences
+/// are the mean of both sides: a force element that is on different pieces ahead and behind, or a
+/// body whose slits are open on one side only, while forward and backward differences disagree.
+/// Empty if there is none.
 /// @param ahead, behind  equally far from the state
 std::string kink_between(const ForceSet& forces, const RatesAndPieces& ahead,
                          const Eigen::VectorXd& at_state, const RatesAndPieces& behind);

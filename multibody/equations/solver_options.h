@@ -5,17 +5,18 @@
 
 namespace flexneck::multibody {
 
-/// Which equations of motion a run solves. They agree to rounding; see README.md for the choice.
+/// Form of the equations of motion that a run solves. The forms agree to rounding; see README.md
+/// for the choice.
 enum class Formulation {
   descriptor,  ///< all bodies' coordinates, joints as constraints with multipliers: any model
-  recursive,   ///< joint coordinates: trees of bodies, work in proportion to their number
-  automatic    ///< recursive where the joints make trees, else descriptor
+  recursive,   ///< joint coordinates: trees of bodies, work proportional to their number
+  automatic    ///< recursive if the joints form trees, else descriptor
 };
 
-/// How a run steps through time.
+/// Time integration method of a run.
 enum class Integrator {
   dormand_prince,    ///< explicit, order 5: for most models
-  generalised_alpha  ///< implicit, order 2: for stiff ones, whose fast vibrations do not matter
+  generalised_alpha  ///< implicit, order 2: for stiff models whose fast vibrations do not matter
 };
 
 struct SolverOptions {
@@ -24,15 +25,16 @@ struct SolverOptions {
   double max_step_s = 0.05;
   double min_step_s = 1e-10;
   Formulation formulation = Formulation::automatic;
-  int max_steps = 10'000'000;  ///< tried; a run that needs more is given up
+  int max_steps = 10'000'000;  ///< steps tried; a run that needs more is ended
   Integrator integrator = Integrator::dormand_prince;
-  /// Of the generalised-alpha method, in [0, 1]: by what a step multiplies vibrations that it does
-  /// not resolve.
+  /// Spectral radius of the generalised-alpha method at infinite frequency, in [0, 1]: the factor
+  /// by which a step multiplies vibrations that it does not resolve.
   double spectral_radius = 0.8;
-  /// No feature of a load given by a function that is longer than this is stepped over.
+  /// Features of a load given by a function are not stepped over if they are longer than this.
   double resolution_s = 1e-4;
-  /// Called after each step, and after each output of a quasi-static ramp: what it throws ends the
-  /// run, without a history unless it is a ComputationError. So a run is stopped from outside.
+  /// Called after each step, and after each output of a quasi-static ramp, so that a run can be
+  /// stopped from outside: an exception that it throws ends the run, without a history unless it is
+  /// a ComputationError.
   std::function<void()> checkpoint = {};
 };
 

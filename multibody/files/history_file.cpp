@@ -80,7 +80,7 @@ ModalHistory read_modal(const Hdf5Reader& file, const std::string& body, std::si
   return modal;
 }
 
-/// Of as many rows as the file says.
+/// Reads a matrix with as many rows as the file has.
 Eigen::MatrixXd read_rows(const Hdf5Reader& file, const std::string& dataset, std::size_t times,
                           std::string_view unit) {
   const Shape shape = file.shape(dataset);
@@ -118,7 +118,7 @@ Channel read_channel(const Hdf5Reader& file, const std::string& name, std::size_
   return channel;
 }
 
-/// A number of steps, which is whole and no larger than the program counts to.
+/// Checks a number of steps, which must be whole and within the range of int.
 template <class Number>
 int count_from(const Hdf5Reader& file, const std::string& object, Number number) {
   constexpr auto kMost = static_cast<Number>(std::numeric_limits<int>::max());
@@ -154,7 +154,7 @@ LinearisationRecord read_linearisation(const Hdf5Reader& file) {
   record.about = file.string_attribute(kLinearisation, "about");
   record.markers = file.read_strings(path_of(kLinearisation, "markers"));
   for (const ModeNumber& number : kModeNumbers) {
-    // Files of earlier versions hold stable modes only, without their growth.
+    // Files of earlier versions hold stable modes only, without growth rates.
     const bool may_lack = number.member == &SystemMode::growth_rate_1_s;
     if (may_lack && !file.has(path_of(kLinearisation, number.name))) continue;
     const std::vector<double> values =
@@ -216,7 +216,7 @@ HistoryFile read_history(const std::filesystem::path& path) {
     history.state.bodies.push_back(read_state(reader, name, times));
   if (!history.state.bodies.empty())
     history.state.internal = read_rows(reader, kInternal, times, "m, rad");
-  // Files of earlier versions have none.
+  // Files of earlier versions have no angles.
   if (reader.has(kAngleNames)) {
     history.state.angle_names = reader.read_strings(kAngleNames);
     history.state.angles = read_columns<Eigen::MatrixXd>(reader, kAngles, times,
@@ -228,7 +228,7 @@ HistoryFile read_history(const std::filesystem::path& path) {
   visit_energies(history.energy, [&](const char* name, Eigen::VectorXd& values) {
     values = read_vector(reader, path_of(kEnergy, name), times, "J");
   });
-  // Files of earlier versions have none.
+  // Files of earlier versions have no constraint residuals.
   if (reader.has(kConstraints))
     visit_constraints(history.constraints,
                       [&](const char* name, Eigen::VectorXd& values, const char* unit) {

@@ -16,10 +16,10 @@
 
 namespace flexneck::multibody {
 
-/// The layout is described in multibody/README.md.
+/// Format of a history file; the layout is described in multibody/README.md.
 inline constexpr FileFormat kHistoryFormat{"flexneck history", 2, "flexneck pendulum"};
 
-/// Curves that were derived from a history, at its times.
+/// Curves derived from a history, at its times.
 struct Channel {
   std::string name;
   std::string unit;
@@ -28,10 +28,11 @@ struct Channel {
   std::string filter;                ///< such as "CFC 600"; empty for none
 };
 
-/// Modes of the linearised model, /linearisation. Shapes as in ModeShape, (modes, markers, 3).
+/// Modes of the linearised model, in the group /linearisation. Shapes as in ModeShape, (modes,
+/// markers, 3).
 struct LinearisationRecord {
   std::string about;                 ///< "equilibrium", "steady rotation" or "given"
-  std::vector<std::string> markers;  ///< of the model, in its order
+  std::vector<std::string> markers;  ///< the model's markers, in its order
   std::vector<ModeShape> modes;
 };
 
@@ -42,10 +43,11 @@ struct HistoryFile {
   std::optional<LinearisationRecord> linearisation = {};
 };
 
-/// A history that memory holds whole; HistoryWriter takes it in blocks. `meanwhile` and what is
-/// thrown: as there.
+/// Writes a history that is whole in memory; HistoryWriter takes it in blocks. `meanwhile` and
+/// exceptions are as there.
 void write_history(const std::filesystem::path& path, const HistoryFile& file,
                    const std::function<void()>& meanwhile = {});
+/// Reads a history.
 /// @throws InputError if the file is missing, truncated, foreign or inconsistent.
 HistoryFile read_history(const std::filesystem::path& path);
 

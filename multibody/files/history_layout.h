@@ -25,7 +25,7 @@ inline constexpr const char* kEnergy = "/energy";
 inline constexpr const char* kConstraints = "/constraints";
 inline constexpr const char* kStatistics = "/statistics";
 inline constexpr const char* kLinearisation = "/linearisation";
-/// Position of a group in the model's list: HDF5 itself lists them by name.
+/// Attribute with the position of a group in the model's list: HDF5 itself lists groups by name.
 inline constexpr const char* kIndex = "index";
 inline constexpr const char* kUndetermined = "undetermined";
 inline constexpr const char* kIncomplete = "incomplete";
@@ -36,7 +36,8 @@ inline constexpr const char* kLimits = "/statistics/step_limits";
 inline constexpr const char* kLimitedSteps = "/statistics/limited_steps";
 inline constexpr const char* kModalUnit = "kg^(1/2) m";
 
-/// The vectors of a marker with their datasets' names and units.
+/// Calls visit(name, vectors, unit) for the vectors of a marker with their datasets' names and
+/// units.
 template <class Markers, class Visit>
 void visit_vectors(Markers& marker, const Visit& visit) {
   visit("position", marker.position_m, "m");

@@ -59,8 +59,9 @@ void write_vector(Hdf5Writer& file, const std::string& dataset, const Eigen::Vec
   file.write(dataset, numbers_of(values), {static_cast<std::size_t>(values.size())}, unit);
 }
 
-/// An Eigen matrix with one column per time is, by its memory, a row-major (n, rows) array. Arrays
-/// of bodies without modes have no numbers: they are written at the end.
+/// Appends the arrays of a history. An Eigen matrix with one column per time has the memory layout
+/// of a row-major (n, rows) array. Arrays of bodies without modes have no numbers: they are written
+/// at the end.
 void append_columns(Hdf5Writer& file, const History& history,
                     const std::vector<Channel>& channels) {
   put_arrays(history, channels,
@@ -84,7 +85,7 @@ void write_index(Hdf5Writer& file, const std::string& group, std::size_t index) 
   file.write_attribute(group, kIndex, static_cast<std::int64_t>(index));
 }
 
-/// What the groups hold besides their arrays.
+/// Writes the content of the groups other than their arrays.
 void write_groups(Hdf5Writer& file, const History& history, const std::vector<Channel>& channels) {
   for (std::size_t k = 0; k < history.markers.size(); ++k)
     write_index(file, path_of(kMarkers, history.markers[k].name), k);
@@ -156,7 +157,7 @@ void write_linearisation(Hdf5Writer& file, const LinearisationRecord& record) {
   }
 }
 
-/// What belongs to the run as a whole.
+/// Writes the data of the run as a whole.
 void write_run(Hdf5Writer& file, const HistoryFile& run) {
   const History& history = run.history;
   write_statistics(file, history.statistics);

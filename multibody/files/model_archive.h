@@ -10,7 +10,7 @@
 #include "multibody/joints/joint_kinds.h"
 #include "multibody/model/model.h"
 
-// A model as bytes (byte_archive.h): what an FMU carries, without a library for files. Each
+// Serialisation of a model (byte_archive.h) for an FMU, which needs no file library then. Each
 // struct's fields are listed by a structured binding, which does not compile when one is added.
 namespace flexneck::fe_modal {
 
@@ -49,8 +49,8 @@ void archive(A& all, ModeRecord& x) {
   auto& [name, kind, shares, residual, mesh_error] = x;
   all(name, kind, shares, residual, mesh_error);
 }
-/// Data that a run has no use for are left out: slits, which models have as gaps, frequencies with
-/// attached bodies, and what the errors of the mesh are worth.
+/// Data that a run does not need are left out: slits, which models have as gaps, frequencies with
+/// attached bodies, and the discretisation error estimate.
 template <class A>
 void archive(A& all, ModalBody& x) {
   auto& [hertz, modes, boundary, prestress, of_prestress, completeness, limits, solver,
@@ -134,7 +134,7 @@ void archive(A& all, Joint& x) {
   }
 }
 
-// Force elements.
+// Archive functions of force elements.
 template <class A>
 void archive(A& all, PointForce& x) {
   auto& [name, marker, direction, magnitude, follows, input] = x;
@@ -196,7 +196,7 @@ void archive(A& all, Cable& x) {
   all(name, marker_i, marker_j, axis, length, preload, stiffness, play);
 }
 
-/// @throws InputError naming a function force, which has no place in an archive.
+/// @throws InputError naming a function force, which cannot be archived.
 template <class A, class... Kinds>
 void archive(A& all, ForceLists<Kinds...>& forces) {
   const auto each = [&]<class Kind>(std::vector<Kind>& elements) {
@@ -225,7 +225,7 @@ void archive(A& all, Model& x) {
   auto& [bodies, markers, joints, angles, forces, gravity, start] = x;
   all(bodies, markers, joints, angles, forces, gravity, start);
 }
-/// The checkpoint is left out, a function of the program that runs the model.
+/// The checkpoint, a function of the program that runs the model, is left out.
 template <class A>
 void archive(A& all, SolverOptions& x) {
   auto& [relative, absolute, max_step, min_step, formulation, max_steps, integrator, radius,

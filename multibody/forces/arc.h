@@ -6,11 +6,11 @@
 
 #include "multibody/numerics/rotation.h"
 
-// What force elements share whose parts are bent to arcs (equations.md section 8).
+// Helpers of force elements that model parts bent to arcs (equations.md section 8).
 namespace flexneck::multibody {
 
-/// Sinc of half an angle, chord over arc, and its gradient over the rotation vector's part across
-/// the length.
+/// Sinc of half an angle, chord over arc, and its gradient with respect to the transverse part of
+/// the rotation vector.
 struct ArcShortening {
   explicit ArcShortening(const Eigen::Vector3d& across) {
     const RotationCoefficients k = rotation_coefficients(across.squaredNorm() / 4);
@@ -22,14 +22,14 @@ struct ArcShortening {
   Eigen::Vector3d gradient;
 };
 
-/// The part of a rotation vector across a direction, which may be zero.
+/// The part of a rotation vector transverse to a direction, which may be zero.
 inline Eigen::Vector3d part_across(const Eigen::Vector3d& theta, const Eigen::Vector3d& length) {
   const double squared = length.squaredNorm();
   if (squared == 0) return Eigen::Vector3d::Zero();
   return theta - (theta.dot(length) / squared) * length;
 }
 
-/// Half of a rotation vector, and what follows from it by cross products.
+/// Half of a rotation vector, with operations on it by cross products.
 class HalfTurn {
  public:
   explicit HalfTurn(const Eigen::Vector3d& theta)
@@ -38,7 +38,7 @@ class HalfTurn {
         squared_(theta.squaredNorm()),
         k_(rotation_coefficients(squared_ / 4)) {}
 
-  /// By the half rotation, and back.
+  /// Rotates a vector by the half rotation; the next function rotates back.
   Eigen::Vector3d turned(const Eigen::Vector3d& v) const {
     const Eigen::Vector3d once = half_.cross(v);
     return v + k_.a * once + k_.b * half_.cross(once);
@@ -47,15 +47,16 @@ class HalfTurn {
     const Eigen::Vector3d once = half_.cross(v);
     return v - k_.a * once + k_.b * half_.cross(once);
   }
-  /// J_l(theta / 2)^T v
+  /// Returns J_l(theta / 2)^T v.
   Eigen::Vector3d of_rate(const Eigen::Vector3d& v) const {
     const Eigen::Vector3d once = half_.cross(v);
     return v - k_.b * once + k_.c * half_.cross(once);
   }
-  /// J_l(theta)^-T v = v + theta x v / 2 + d theta x (theta x v), d = (1 - t/2 cot t/2) / t^2.
+  /// Returns J_l(theta)^-T v = v + theta x v / 2 + d theta x (theta x v), d = (1 - t/2 cot t/2) /
+  /// t^2.
   Eigen::Vector3d to_moment(const Eigen::Vector3d& v) const {
     const double cosine = 1 - k_.b * squared_ / 4;
-    // What cancels in d is small in the term.
+    // Cancellation in d does not matter: the term is small there.
     const double d = squared_ > 1e-12 ? (1 - cosine / k_.a) / squared_ : 1. / 12;
     const Eigen::Vector3d once = theta_.cross(v);
     return v + once / 2 + d * theta_.cross(once);

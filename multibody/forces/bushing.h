@@ -6,9 +6,9 @@
 namespace flexneck::multibody {
 
 /// A linear spring and damper in all six directions between two markers: e = [d; theta], d the
-/// place of j and theta the rotation vector of j, both against i and in i's axes. Its energy is
-/// e^T K e / 2, so that its moment is the exact one of a finite rotation; the damper's load is
-/// C [d'; angular velocity of j against i].
+/// position and theta the rotation vector of j relative to i, both in i's axes. Its energy is e^T K
+/// e / 2, so that its moment is exact for finite rotations; the damper's load is C [d'; angular
+/// velocity of j relative to i].
 struct Bushing {
   static constexpr std::string_view kName = "bushing";
 

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Pull less preload, the energy that goes with it, and which piece of the law it is on.
+/// Pull less preload, its energy, and the piece of the law.
 struct Pull {
   Pull(const Cable& cable, double x) {
     const double k = cable.stiffness_N_m;
@@ -23,7 +23,7 @@ struct Pull {
       piece = 1;
       kinks = {x, cable.play_m, kInfinity};
     } else if (x < 0) {
-      // What the cable gives up at most is its preload.
+      // The pull can decrease by the preload at most.
       const double given_up_N = std::min(-k * x, cable.preload_N);
       const double slack_m = given_up_N < -k * x ? -x - cable.preload_N / k : 0;
       extra_N = -given_up_N;
@@ -82,7 +82,7 @@ void Cable::act(const ForceInput& input, ForceLoad& load, ForceEnergies& sums) c
   load.piece = {pull.piece, 0, pull.kinks};
   const double ratio = path.arc.ratio;
   load.force_N = -pull.extra_N / (ratio * path.chord_m) * path.line;
-  // The path's gradient over theta is -chord / ratio^2 times that of the ratio.
+  // The path's gradient with respect to theta is -chord / ratio^2 times that of the ratio.
   const Vector3d by_theta = pull.extra_N * path.chord_m / (ratio * ratio) * path.arc.gradient;
   load.moment_Nm = input.i.R * HalfTurn(path.theta).to_moment(by_theta);
 }

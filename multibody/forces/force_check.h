@@ -11,23 +11,24 @@
 
 namespace flexneck::multibody {
 
-/// What of a model force elements refer to.
+/// Parts of a model to which force elements refer.
 struct ForceSites {
-  std::vector<std::string> marker_bodies;  ///< of each marker, the name of its body
+  std::vector<std::string> marker_bodies;  ///< name of the body of each marker
   const std::vector<Joint>& joints;
 };
 
-// What several kinds of force elements demand. `who` begins the message of the InputError thrown.
+// Checks common to several kinds of force elements. `who` begins the message of the InputError
+// thrown.
 
 [[noreturn]] void refuse_force(const std::string& who, const std::string& problem);
 void check_marker(const std::string& who, std::size_t marker, const ForceSites& sites);
-/// Two markers, on two bodies.
+/// Checks that the markers are two, on two bodies.
 void check_pair(const std::string& who, std::size_t marker_i, std::size_t marker_j,
                 const ForceSites& sites);
-/// A unit vector.
+/// Checks that the vector has unit length.
 void check_direction(const std::string& who, const Eigen::Vector3d& direction);
-/// Of a stiffness or a damping: symmetric within rounding, and no negative eigenvalue, since it
-/// must not feed energy.
+/// Checks that a stiffness or damping matrix is symmetric within rounding and has no negative
+/// eigenvalue, which would feed energy.
 void check_stiffness(const std::string& who, const std::string& what,
                      const Eigen::Ref<const Eigen::MatrixXd>& matrix);
 void check_not_negative(const std::string& who, const std::string& what, double value);

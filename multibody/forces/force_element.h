@@ -19,7 +19,7 @@
 
 namespace flexneck::multibody {
 
-/// Below this distance (m) or angle (rad) a direction is not defined, and nothing acts.
+/// Distance (m) or angle (rad) below which a direction is not defined and no load acts.
 inline constexpr double kNoDirection = 1e-12;
 
 /// A marker's motion, world axes, SI.
@@ -30,15 +30,15 @@ struct MarkerKinematics {
   Eigen::Vector3d w = Eigen::Vector3d::Zero();
 };
 
-/// What a force element sees when it acts; one with a single marker finds it both as i and as j.
+/// Input of a force element's act(); an element with a single marker has it both as i and as j.
 struct ForceInput {
   const MarkerKinematics& i;
   const MarkerKinematics& j;
-  const std::vector<Joint>& joints;  ///< of the model
-  /// The angle of each joint that has one, as it was seen last.
+  const std::vector<Joint>& joints;  ///< the model's joints
+  /// The angle of each joint that has one, as last counted.
   const std::vector<CountedAngle>& angles;
   double time_s;
-  InternalVariables internal = {};  ///< of a RelaxingForce
+  InternalVariables internal = {};  ///< used by a RelaxingForce
 };
 
 /// The load of a force element, world axes, on j's body at j's origin. On i's body, if i is another
@@ -46,22 +46,22 @@ struct ForceInput {
 struct ForceLoad {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
   Eigen::Vector3d moment_Nm = Eigen::Vector3d::Zero();
-  LawPiece piece;  ///< of a PiecewiseForce; comes with the value of the last evaluation
+  LawPiece piece;  ///< set by a PiecewiseForce; initially as in the last evaluation
 };
 
 /// Sums over force elements. The loads give the bodies the power work_W - d(stored_J)/dt - lost_W.
 struct ForceEnergies {
   double stored_J = 0;  ///< potential energy of the elements
   double lost_W = 0;    ///< dissipated power
-  double work_W = 0;    ///< power that comes from outside of the model
-  /// What loads would still give if they stayed as they are, where that can be told: equilibria are
-  /// minima of it and the stored energy.
+  double work_W = 0;    ///< power from outside the model
+  /// Potential of the loads as if they were constant, where it exists: equilibria are minima of the
+  /// sum of it and the stored energy.
   double potential_J = 0;
 };
 
-/// A kind of force element: an aggregate that is all the rest of the program knows of it.
+/// A kind of force element: an aggregate, and all that the rest of the program knows of it.
 /// - Kind::kName: its name in files and messages; name: the element's own
-/// - check(who, sites): throws InputError, which begins with `who`, if the element makes no sense
+/// - check(who, sites): throws InputError, which begins with `who`, if the element is invalid
 /// - markers(joints): indices of the markers that it loads, a std::array of one, or of i and j
 /// - act(input, load, sums): sets the load, which is zero, and adds to the sums; allocates nothing
 template <class Kind>
@@ -75,26 +75,28 @@ concept ForceElement = requires(const Kind& element, const std::string& who,
   { element.act(input, load, sums) } -> std::same_as<void>;
 };
 
-/// Its load follows a table of time: steps end at the table's rows.
+/// A force whose load follows a table of time: steps end at the table's rows.
 template <class Kind>
 concept TimedForce = requires(const Kind& element) {
   { element.load_over_time() } -> std::same_as<const TimeTable&>;
 };
 
-/// Its load has a direction, a unit vector, which it keeps in the world if it says so.
+/// A force whose load has a direction, a unit vector, which is fixed in the world if
+/// keeps_direction().
 template <class Kind>
 concept WorldForce = requires(const Kind& element) {
   { element.direction } -> std::convertible_to<const Eigen::Vector3d&>;
   { element.keeps_direction() } -> std::same_as<bool>;
 };
 
-/// Its load has kinks along a motion, and it says on which smooth piece it is.
+/// A force whose load has kinks along a motion, and which reports its present smooth piece.
 template <class Kind>
 concept PiecewiseForce = requires {
   requires Kind::kHasKinks;
 };
 
-/// It has dashpots of its own, with a block of internal variables (InternalBlock) for each branch.
+/// A force with dashpots of its own, with a block of internal variables (InternalBlock) for each
+/// branch.
 template <class Kind>
 concept RelaxingForce = requires(const Kind& element) {
   { element.branch_count() } -> std::convertible_to<std::size_t>;
@@ -102,27 +104,27 @@ concept RelaxingForce = requires(const Kind& element) {
   { element.branch_size() } -> std::convertible_to<Eigen::Index>;
 };
 
-/// It resists every motion between its two bodies, marker_i and marker_j, so that one carries the
-/// other.
+/// A force that resists every relative motion of its two bodies, of marker_i and marker_j, so that
+/// one carries the other.
 template <class Kind>
 concept HoldingForce = requires {
   requires Kind::kHolds;
 };
 
-/// Its loads follow from the rotation vector from marker_i to marker_j, which jumps at half a turn,
-/// if it resists turning at all.
+/// A force whose loads follow from the rotation vector from marker_i to marker_j, which jumps at
+/// half a turn, if it resists rotation at all.
 template <class Kind>
 concept TurnedForce = requires(const Kind& element) {
   { element.resists_turning() } -> std::same_as<bool>;
 };
 
-/// Its kinks are all of one sort, kKink.
+/// A force whose kinks are all of one sort, kKink.
 template <class Kind>
 concept NamedKink = requires {
   { Kind::kKink } -> std::convertible_to<std::string_view>;
 };
 
-/// How messages call an element: spring 'rope'.
+/// Name of an element in messages, as "spring 'rope'".
 template <ForceElement Kind>
 std::string title(const Kind& element) {
   return std::string(Kind::kName) + " '" + element.name + "'";

@@ -16,7 +16,7 @@ namespace flexneck::multibody {
 template <ForceElement... Kinds>
 class ForceLists {
  public:
-  /// What belongs to each kind, e.g. numbers of its elements.
+  /// Tuple with one item for each kind, e.g. data of its elements.
   template <template <class> class Of>
   using OfEachKind = std::tuple<Of<Kinds>...>;
 
@@ -40,7 +40,7 @@ class ForceLists {
     (visit(of<Kinds>()), ...);
   }
 
-  /// @throws InputError naming the element that makes no sense, or whose name is taken.
+  /// @throws InputError naming an element that is invalid or whose name is taken.
   void check(const ForceSites& sites) const {
     each_kind([&]<class Kind>(const std::vector<Kind>& elements) {
       check_names(names_of(elements), std::string(Kind::kName));

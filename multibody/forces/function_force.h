@@ -8,7 +8,7 @@
 
 namespace flexneck::multibody {
 
-/// Motion of marker j seen from the moving frame of marker i, in i's axes, SI.
+/// Motion of marker j relative to the moving frame of marker i, in i's axes, SI.
 struct RelativeMotion {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
@@ -18,16 +18,16 @@ struct RelativeMotion {
 
 RelativeMotion relative_motion(const MarkerKinematics& i, const MarkerKinematics& j);
 
-/// What acts on j's body at j's origin, in i's axes; the opposite acts on i's body at that point.
+/// Load on j's body at j's origin, in i's axes; the opposite acts on i's body at that point.
 struct FunctionLoad {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
   Eigen::Vector3d moment_Nm = Eigen::Vector3d::Zero();
 };
 
-/// A load that is any function of time and of the motion between two markers, such as a formula or
-/// a prototype's own code. Nothing is known of the function but its values: what it gives to the
-/// bodies counts as work from outside, and it has no potential. Steps are shortened where it has
-/// features that they would miss (time/load_watch.h).
+/// A load that is an arbitrary function of time and of the motion between two markers, such as a
+/// formula or a prototype's own code. Only the values of the function are known: the energy it
+/// gives to the bodies counts as external work, and it has no potential. Steps are shortened where
+/// it has features that they would miss (time/load_watch.h).
 struct FunctionForce {
   static constexpr std::string_view kName = "function_force";
   using Function = std::function<FunctionLoad(double time_s, const RelativeMotion& motion)>;
@@ -35,11 +35,11 @@ struct FunctionForce {
   std::string name;
   std::size_t marker_i = 0;
   std::size_t marker_j = 0;
-  /// May be called by several threads at once where several run the same model.
+  /// The function. Several threads may call it at once if they run the same model.
   Function load;
-  /// Whether it takes the rotation for a rotation vector, which jumps at half a turn.
+  /// True if it uses the rotation vector, which jumps at half a turn.
   bool takes_rotation_vector = false;
-  /// Increasing; steps end there.
+  /// Times at which steps end, increasing.
   std::vector<double> breakpoints_s = {};
 
   void check(const std::string& who, const ForceSites& sites) const;
@@ -47,7 +47,7 @@ struct FunctionForce {
     return {marker_i, marker_j};
   }
   bool resists_turning() const { return takes_rotation_vector; }
-  /// @throws ComputationError where the function gives no number.
+  /// @throws ComputationError if the function's value is not finite.
   void act(const ForceInput& input, ForceLoad& load, ForceEnergies& sums) const;
 };
 

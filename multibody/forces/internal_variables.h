@@ -7,10 +7,10 @@
 
 namespace flexneck::multibody {
 
-/// What a step of length h does to a Maxwell branch with the relaxation time tau.
+/// Factors of a Maxwell branch with the relaxation time tau over a step of length h.
 struct BranchStep {
-  double decay = 1;  ///< exp(-h/tau): what is left of the spring's strain
-  double share = 1;  ///< (1 - exp(-h/tau)) tau/h: what it has of a strain that changes evenly
+  double decay = 1;  ///< exp(-h/tau): remaining fraction of the spring's strain
+  double share = 1;  ///< (1 - exp(-h/tau)) tau/h: its part of an evenly changing strain
 
   static BranchStep over(double length_s, double relaxation_time_s) {
     const double periods = length_s / relaxation_time_s;
@@ -19,22 +19,23 @@ struct BranchStep {
 };
 
 /// Internal variables of a force element: the strains of its dashpots, a block for each branch,
-/// that follow the motion with a delay. How the element finds them when it acts, and its answer.
+/// which follow the motion with a delay. Holds both the variables given to the element and those it
+/// returns.
 struct InternalVariables {
   enum class Known {
-    relaxed,  ///< not at all: at rest for long, no dashpot is loaded
-    now,      ///< as they are
-    begin     ///< as they were at the beginning of a step over which strains change evenly
+    relaxed,  ///< unknown: after a long time at rest no dashpot is loaded
+    now,      ///< the present values
+    begin     ///< values at the beginning of a step over which strains change evenly
   };
 
   Known known = Known::relaxed;
-  const double* values = nullptr;     ///< now, or at the beginning
+  const double* values = nullptr;     ///< present, or at the beginning
   const double* rates = nullptr;      ///< at the beginning, 1/s
-  const BranchStep* steps = nullptr;  ///< of the branches over the step
-  double* found_values = nullptr;     ///< answer: now
+  const BranchStep* steps = nullptr;  ///< factors of the branches over the step
+  double* found_values = nullptr;     ///< result: present values
   double* found_rates = nullptr;
 
-  /// Those that begin behind the first so many branches, of a size each.
+  /// The variables after those of the first `branches` branches, of `size` variables each.
   InternalVariables behind(Eigen::Index size, Eigen::Index branches = 1) const {
     const auto part = [](auto* all, Eigen::Index count) {
       return all == nullptr ? all : all + count;
@@ -49,28 +50,29 @@ struct InternalVariables {
   }
 };
 
-/// Of one branch: what an element says of its variables, for sizes and messages.
+/// Description of one branch's variables by the element, for sizes and messages.
 struct InternalBlock {
-  Eigen::Index begin = 0;  ///< among all
-  /// A displacement, m, a rotation, rad, then further displacements, m.
+  Eigen::Index begin = 0;  ///< index of the first among all
+  /// Number of variables: a displacement, m, a rotation, rad, then further displacements, m.
   Eigen::Index size = 0;
 };
 
-/// A spring and a dashpot in line, for several strains at once (a Maxwell branch).
+/// A spring and a dashpot in series, for several strains at once (a Maxwell branch).
 template <class Stiffness>
 struct MaxwellBranch {
   Stiffness stiffness;
   double relaxation_time_s = 0;
 
-  /// The spring's part s of a strain e, whose dashpot has the rest z, z' = s / tau, is
-  /// share e + offset: e - z, or over a step of length h from s0, e0 the exact solution for an even
-  /// change of the strain, exp(-h/tau) s0 + (1 - exp(-h/tau)) tau/h (e - e0).
+  /// The spring's part s of a strain e, whose dashpot has the rest z, z' = s / tau, is share e +
+  /// offset: e - z, or over a step of length h from s0, e0 the exact solution for an even change of
+  /// the strain, exp(-h/tau) s0 + (1 - exp(-h/tau)) tau/h (e - e0).
   template <class Strain>
   struct SpringStrain {
     double share = 0;
     Strain offset;
     Strain of(const Strain& strain) const { return share * strain + offset; }
   };
+  /// Returns the spring's part of the strain.
   /// @tparam Strain  a vector of the branch's size
   template <class Strain>
   SpringStrain<Strain> spring(const InternalVariables& internal) const {
@@ -84,7 +86,7 @@ struct MaxwellBranch {
     return {share, decay * before - share * (values + before)};
   }
 
-  /// Tells the variables that go with a spring's strain.
+  /// Writes the internal variables that belong to a spring's strain.
   template <class Strain>
   void answer(const Strain& strain, const Strain& spring, const InternalVariables& internal) const {
     if (internal.found_values == nullptr) return;

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A coordinate must be one that the joint leaves free.
+/// Checks that the joint leaves the coordinate free.
 void check_coordinate(const std::string& who, JointCoordinate of, const Joint& joint) {
   const auto demand = [&](JointCoordinate coordinate, bool JointKind::*has, const char* name) {
     if (of != coordinate || joint.kind->*has) return;
@@ -37,8 +37,8 @@ void act_on_flexion(const Resistance& resistance, const Vector3d& axis, const Fo
     sums.lost_W += sign * found.lost_W;
     return sign * found.load;
   };
-  // The curve bends back about the normal of both axes, which straight axes have not; there it
-  // vanishes.
+  // The curve's moment acts about the normal of both axes, which is undefined for straight axes;
+  // the moment vanishes there.
   const Vector3d across = h.cross(h_j);
   const double sine = across.norm();
   if (sine > kNoDirection) {
@@ -49,16 +49,16 @@ void act_on_flexion(const Resistance& resistance, const Vector3d& axis, const Fo
     moment -= record(evaluate(resistance, 0, bending), -1) * normal;
     piece = piece_of(resistance, angle, bending);
   }
-  // Damping and friction, what is left without deflection, act against the whole rate across the
-  // axis: about the normal alone they would jump where the axes are straight.
+  // Damping and friction, the load without deflection, act against the whole transverse rate: about
+  // the normal alone they would jump where the axes are straight.
   const Vector3d swinging = rate - h.dot(rate) * h;
   const double speed = swinging.norm();
   if (speed > kNoDirection) moment -= record(evaluate(resistance, 0, speed), 1) / speed * swinging;
-  // Both rates count: bending turns over hysteresis, swinging friction.
+  // Both rates count: that of bending reverses hysteresis, that of swinging friction.
   const LawPiece swings = piece_of(resistance, 0, speed);
   piece.rate += 3 * swings.rate;
-  // Neither the angle nor the speed, which are never negative, has a kink at zero; where bending is
-  // at a kink, the speed is.
+  // Neither the angle nor the speed, which are never negative, has a kink at zero; where the
+  // bending rate has a kink, so has the speed.
   piece.of_rate = swings.of_rate;
   if (piece.of_deflection.low == 0)
     piece.of_deflection.low = -std::numeric_limits<double>::infinity();

@@ -5,7 +5,7 @@
 
 namespace flexneck::multibody {
 
-/// Spring, damper, stops and friction of a joint, on one of its coordinates.
+/// Spring, damper, stops and friction of a joint, acting on one of its coordinates.
 struct JointResistance {
   static constexpr std::string_view kName = "resistance";
   static constexpr bool kHasKinks = true;

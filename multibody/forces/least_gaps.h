@@ -9,16 +9,16 @@
 
 namespace flexneck::multibody {
 
-/// The least of an energy g^T A g / 2 + r^T g over gaps g >= 0, A positive definite: of all ways to
-/// keep some closed, the one in which nothing else would open or overlap.
+/// Minimum of an energy g^T A g / 2 + r^T g over gaps g >= 0, A positive definite: among all
+/// choices of closed gaps the one in which no other gap would open or overlap.
 template <int kGaps>
 class LeastGaps {
  public:
   using Matrix = Eigen::Matrix<double, kGaps, kGaps>;
   using Vector = Eigen::Matrix<double, kGaps, 1>;
 
-  /// @param tried_first  a way, a bit for each open gap, such as the last found: there is but one
-  ///                     least energy, so that it changes the work and not the answer
+  /// @param tried_first  a choice, with a bit for each open gap, such as the last found: the
+  /// minimum is unique, so that it changes the work and not the result
   LeastGaps(const Matrix& A, const Vector& r, int tried_first) {
     double least = std::numeric_limits<double>::infinity();
     constexpr int kAll = 1 << kGaps;
@@ -29,18 +29,20 @@ class LeastGaps {
   }
 
   Vector openings_m = Vector::Zero();
-  int which_open = 0;  ///< a bit each
-  /// How far the first gap is from opening or closing, m: an opening, or what a force presses in.
+  int which_open = 0;  ///< one bit for each gap
+  /// Distance of the first gap from opening or closing, m: an opening, or the indentation by a
+  /// force.
   double to_next_m = 0;
 
  private:
   static bool is_open(int open, int gap) { return (open >> gap & 1) != 0; }
 
-  /// Keeps the way that violates least. @return whether it violates nothing
+  /// Keeps the choice with the smallest violation.
+  /// @return true if it violates nothing
   bool is_least(const Matrix& A, const Vector& r, int open, double& least) {
     const Vector g = with_open(A, r, open);
     const Vector force = A * g + r;
-    double violation = 0;  // as energy, so that openings and forces compare
+    double violation = 0;  // as an energy, so that openings and forces are comparable
     double to_next = std::numeric_limits<double>::infinity();
     for (int k = 0; k < kGaps; ++k) {
       const double room_m = is_open(open, k) ? g[k] : force[k] / A(k, k);

@@ -5,8 +5,8 @@
 
 namespace flexneck::multibody {
 
-/// A force along the line between the origins of two markers that follows a table of time: an
-/// actuator. A positive one pushes them apart. Where the origins meet, nothing acts.
+/// An actuator: a force along the line between the origins of two markers that follows a table of
+/// time. A positive one pushes them apart. Where the origins coincide, no load acts.
 struct LineForce {
   static constexpr std::string_view kName = "line_force";
 

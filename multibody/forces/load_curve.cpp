@@ -59,13 +59,13 @@ LoadCurve LoadCurve::table(std::vector<double> x, std::vector<double> load) {
 
 namespace {
 
-/// The row from which the piece at x starts; the first and the last piece go on.
+/// The row at which the piece at x starts; the first and the last piece are extrapolated.
 std::size_t row_before(const std::vector<double>& rows, double x) {
   const auto after = std::upper_bound(rows.begin() + 1, rows.end() - 1, x);
   return static_cast<std::size_t>(after - rows.begin()) - 1;
 }
 
-/// Of the deflection at which a curve locks, the share up to which it follows its law.
+/// Fraction of the locking deflection up to which a curve follows its law.
 constexpr double kLocked = 0.9;
 
 }  // namespace
@@ -94,7 +94,7 @@ bool LoadCurve::continues(const LoadCurve& other) const {
 bool LoadCurve::falls() const {
   if (locks()) return false;
   if (!x_.empty()) return !std::is_sorted(load_.begin(), load_.end());
-  // The slope c1 + 2 c2 x + 3 c3 x^2 is least at -c2 / (3 c3), if that is ahead, or at an end.
+  // The slope c1 + 2 c2 x + 3 c3 x^2 is least at -c2 / (3 c3), if that is positive, or at an end.
   if (c1_ < 0 || c3_ < 0 || (c3_ == 0 && c2_ < 0)) return true;
   return c2_ < 0 && c1_ < c2_ * c2_ / (3 * c3_);
 }

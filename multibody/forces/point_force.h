@@ -5,7 +5,8 @@
 
 namespace flexneck::multibody {
 
-/// A force on a marker's origin, fixed in the world's axes or, as a follower, in the marker's.
+/// A force at a marker's origin, fixed in the world's axes or, as a follower force, in the
+/// marker's.
 struct PointForce {
   static constexpr std::string_view kName = "force";
 
@@ -27,7 +28,7 @@ struct PointForce {
     load.force_N = (magnitude_N.value(input.time_s) + input_N) * direction;
     if (follows) load.force_N = (input.j.R * load.force_N).eval();
     sums.work_W += load.force_N.dot(input.j.v);
-    // A follower has no potential.
+    // A follower force has no potential.
     if (!follows) sums.potential_J -= load.force_N.dot(input.j.p);
   }
 };

@@ -17,7 +17,7 @@ double ResistanceSide::energy(double x) const {
 }
 
 CurvePiece ResistanceSide::piece(double x) const {
-  // Rows of both curves are passed one by one as x grows.
+  // As x grows, rows of both curves are passed one by one.
   CurvePiece found = curve.piece(x);
   if (x > stop) {
     const CurvePiece beyond = beyond_stop.piece(x - stop);
@@ -83,7 +83,7 @@ LawPiece piece_of(const Resistance& resistance, double x, double v) {
       piece.deflection = taut.number;
       piece.of_deflection = {x, taut.low, taut.high};
     } else {
-      // Beyond zero it is slack while it shortens faster than its damping lets it.
+      // At positive deflection it is slack while it shortens faster than its damping permits.
       piece.deflection = kSlack;
       piece.of_deflection = {x, -kInfinity, x > 0 ? kInfinity : 0};
     }
@@ -108,8 +108,8 @@ ResistanceLoad evaluate(const Resistance& resistance, double x, double v) {
   const ResistanceSide& side = x < 0 ? resistance.negative : resistance.positive;
   const double direction =
       resistance.full_rate > 0 ? std::clamp(v / resistance.full_rate, -1.0, 1.0) : 0;
-  // Between loading (1) and unloading (its ratio): the mean is elastic, what is left follows the
-  // direction of motion and only ever loses energy.
+  // Between the loading curve (factor 1) and the unloading curve (its ratio), the mean is elastic;
+  // the rest has the sign of the rate and only dissipates energy.
   const double share = (1 + side.unloading_ratio) / 2;
   const double loading = side.load(sign * x);
   const double elastic = sign * share * loading;

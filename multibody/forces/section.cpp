@@ -19,9 +19,9 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-/// Moment and energy over the bending angle follow a curve: a section that is bent by an angle t
-/// has the energy of one that is bent in proportion by f(t), f^2 / 2 the curve's energy over its
-/// first slope. Zero rotation stays zero.
+/// Bending whose moment and energy over the angle follow a curve: a section bent by an angle t has
+/// the energy of a linear one bent by f(t), where f^2 / 2 is the curve's energy over its first
+/// slope. Zero rotation stays zero.
 class CurvedBending {
  public:
   CurvedBending(const LoadCurve& curve, const Vector3d& bending) {
@@ -35,17 +35,17 @@ class CurvedBending {
     along_ = bending / angle_;
   }
 
-  /// What the stiffness sees of the bending, less the bending.
+  /// Bending on which the stiffness acts, less the actual bending.
   Vector3d added_to(const Vector3d& bending) const { return (ratio_ - 1) * bending; }
-  /// The moment that goes with the bending, from that of what the stiffness sees, both across the
-  /// length; less the latter.
+  /// Moment conjugate to the actual bending, computed from that conjugate to the bending on which
+  /// the stiffness acts, less the latter; both transverse to the length.
   Vector3d added_to_moment(const Vector3d& moment) const {
     const double along = along_.dot(moment);
     return (ratio_ - 1) * (moment - along * along_) + (slope_ - 1) * along * along_;
   }
 
   CurvePiece piece;
-  /// Along the bending angle, which has no kink at zero.
+  /// Kinks along the bending angle, which has none at zero.
   KinksAround kinks() const {
     KinksAround found{angle_};
     if (piece.low > 0) found.low = piece.low;
@@ -60,8 +60,8 @@ class CurvedBending {
   Vector3d along_ = Vector3d::Zero();
 };
 
-/// A section whose number of gaps the compiler knows, so that its small vectors stay in registers:
-/// sections are much of the work of a neck of plates.
+/// A section whose number of gaps is known at compile time, so that its small vectors stay in
+/// registers: sections take much of the time of a neck of plates.
 template <int kGaps>
 class Sized {
  public:
@@ -95,7 +95,7 @@ class Sized {
     return strain;
   }
 
-  /// Loads that go with the motion e; internal variables and energies besides.
+  /// Loads for the motion e; also sets internal variables and energies.
   Vector6d stress(const Vector6d& e, InternalVariables internal, LawPiece& piece,
                   ForceEnergies& sums) const {
     const Vector strain = with_gaps(e, internal, piece);
@@ -123,7 +123,7 @@ class Sized {
   const Section& section_;
 };
 
-/// Does work with the section, its number of gaps known.
+/// Calls `work` with the section, its number of gaps known at compile time.
 template <class Work>
 auto sized(const Section& section, const Work& work) {
   static_assert(Section::kMaxGaps == 4);
@@ -141,7 +141,7 @@ auto sized(const Section& section, const Work& work) {
   }
 }
 
-/// As Sized::stress(), with friction in the slit.
+/// Loads as Sized::stress(), with friction in the slit.
 Vector6d stress_with_friction(const Section& section, const Vector6d& e, InternalVariables internal,
                               LawPiece& piece, ForceEnergies& sums) {
   const SlidingSlit slit = sliding_slit(section, e, internal, piece.deflection);
@@ -248,7 +248,8 @@ void Section::act(const ForceInput& input, ForceLoad& load, ForceEnergies& sums)
       2 * (curved ? curved->piece.number : 0) + (has_friction() ? load.piece.rate : 0);
   if (curved) load.piece.of_rate = curved->kinks();
 
-  // Virtual work (equations.md section 8): of w and theta, then of the motion of j against i.
+  // Virtual work (equations.md section 8): first of w and theta, then of the motion of j relative
+  // to i.
   const Vector3d f = stress.head<3>();
   Vector3d m = stress.tail<3>() + rest_m.cross(f) / 2;
   if (curved) m += curved->added_to_moment(part_across(m, rest_m));

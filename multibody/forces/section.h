@@ -10,21 +10,22 @@
 
 namespace flexneck::multibody {
 
-/// A slender elastic part between two bodies, such as the rubber between two plates: as stiff under
-/// small motions as its stiffness says, seen co-rotationally. Its strain e = [w + theta x r / 2;
-/// theta] holds the rotation vector theta of marker j against i and
+/// A slender elastic part between two bodies, such as the rubber between two plates, with a
+/// stiffness for small motions, formulated co-rotationally. Its strain e = [w + theta x r / 2;
+/// theta] holds the rotation vector theta of marker j relative to i and
 ///   w = R_mid^T (p_j - p_i) - sinc(theta_b / 2) r,   R_mid = R_i exp(~theta / 2),
-/// with r the rest length and direction and theta_b the part of theta across it: what is bent to an
-/// arc of the same length is not stretched. For small motions e is what j has moved, in i's axes.
+/// with r the rest length and direction and theta_b the part of theta transverse to it: bending to
+/// an arc of the same length does not stretch. For small motions e is the displacement of j, in i's
+/// axes.
 ///
-/// Slits add gaps g >= 0 (openings without friction): the energy is the least of
-/// [e; g]^T K [e; g] / 2 over them, so that loads follow from it exactly, whatever the rotation
-/// (below pi), and closing and opening creates no energy. With friction the sides of one slit slide
-/// by coordinates of their own behind the gaps (SlitFriction). Maxwell branches add stiffness that
-/// relaxes: sum s^T K_b s / 2, s the strain of the branch's spring (MaxwellBranch).
+/// Slits add gaps g >= 0 (openings without friction): the energy is the minimum of [e; g]^T K [e;
+/// g] / 2 over them, so that loads follow from it exactly, whatever the rotation (below pi), and
+/// closing and opening creates no energy. With friction the sides of one slit slide by coordinates
+/// of their own, which follow the gaps (SlitFriction). Maxwell branches add stiffness that relaxes:
+/// sum s^T K_b s / 2, s the strain of the branch's spring (MaxwellBranch).
 ///
-/// A bending curve, moment over angle as a nonlinear solution has it, stretches the part of theta
-/// across the length, so that the moment is the curve's times the stiffness over its first slope.
+/// A bending curve, moment over angle from a nonlinear solution, scales the transverse part of
+/// theta, so that the moment is the curve's times the stiffness over its first slope.
 struct Section {
   static constexpr std::string_view kName = "section";
   static constexpr bool kHolds = true;
@@ -43,12 +44,12 @@ struct Section {
   std::string name;
   std::size_t marker_i = 0;
   std::size_t marker_j = 0;
-  Eigen::Vector3d rest_m = Eigen::Vector3d::Zero();  ///< r: from i to j without load, i's axes
-  /// K, that of slow motions, (6 + gaps + slides): loads on j over its motion, both at j in i's
-  /// axes, above forces of gaps over openings and those of slides; N, N m; m, rad.
+  Eigen::Vector3d rest_m = Eigen::Vector3d::Zero();  ///< r: from i to j without load, in i's axes
+  /// K of slow motions, (6 + gaps + slides): loads on j over its motion, both at j in i's axes,
+  /// above forces of gaps over openings and those of slides; N, N m; m, rad.
   Stiffness stiffness = Stiffness::Zero(6, 6);
-  std::vector<Branch> branches = {};  ///< of the same size
-  LoadCurve bending_curve = {};       ///< table of N m over rad; none: in proportion
+  std::vector<Branch> branches = {};  ///< all of the same size as the stiffness
+  LoadCurve bending_curve = {};       ///< table of N m over rad; without it bending is linear
   SlitFriction friction = {};
 
   Eigen::Index gap_count() const { return stiffness.rows() - 6 - friction.slides; }
@@ -58,7 +59,7 @@ struct Section {
     return {marker_i, marker_j};
   }
   static bool resists_turning() { return true; }
-  /// With friction, s and its sliding time stand behind the branches as one of them.
+  /// With friction, s and its sliding time follow the branches as one more branch.
   std::size_t branch_count() const { return branches.size() + (has_friction() ? 1 : 0); }
   Eigen::Index branch_size() const { return stiffness.rows(); }
   double relaxation_time_s(std::size_t branch) const {
@@ -66,8 +67,8 @@ struct Section {
   }
   void act(const ForceInput& input, ForceLoad& load, ForceEnergies& sums) const;
 
-  /// [e; g] with the gaps that go with the motion e, without friction.
-  /// @param which_open  answer: a bit each; as it comes, it is tried first
+  /// Returns [e; g] with the gaps for the motion e, without friction.
+  /// @param which_open  result: a bit for each gap; its input value is tried first
   Strain with_gaps(const Eigen::Matrix<double, 6, 1>& e, const InternalVariables& internal,
                    int& which_open) const;
 };

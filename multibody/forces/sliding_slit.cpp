@@ -16,9 +16,9 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 constexpr int kSlides = Section::kMaxSlides;
 using Slides = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kSlides, 1>;
 
-/// The loads of the coordinates x = [e; g; s], H x + c, at a motion e. For a mobility m, m/N, gaps
-/// and s are the least of one energy, that of the loads and |s - s_0|^2 / (2 m): stuck at m = 0,
-/// without friction at infinity.
+/// Loads H x + c of the coordinates x = [e; g; s] at a motion e. For a mobility m, m/N, gaps and s
+/// minimise one energy, that of the loads plus |s - s_0|^2 / (2 m): the sides stick at m = 0 and
+/// are frictionless at infinity.
 template <int kGaps>
 class Slit {
  public:
@@ -87,7 +87,7 @@ class Slit {
       if ((which_open_ >> k & 1) == 0) normal_N_ += std::max(0.0, pressing[k]);
   }
 
-  /// What of the force friction leaves after a move, 1 - mu N / |F|; 0 where the sides stick.
+  /// Fraction of the force that friction leaves after a move, 1 - mu N / |F|; 0 if the sides stick.
   double left_at(double mobility) {
     move(mobility);
     const double pull_N = force_N_.norm();
@@ -95,8 +95,9 @@ class Slit {
     return pull_N > most_N ? 1 - most_N / pull_N : 0;
   }
 
-  /// With a share x of the mobility of free sides friction must leave the share x: between stuck,
-  /// which leaves more, and free, which cannot leave more than all, by false position (Illinois).
+  /// Fraction x of the free sides' mobility at which friction leaves the same fraction x of the
+  /// force, between sticking, which leaves more, and free, which cannot leave more than all, by
+  /// false position (Illinois).
   double left_over_step() {
     constexpr int kMost = 100;
     constexpr double kSame = 1e-14;
@@ -127,11 +128,11 @@ class Slit {
 
   Eigen::Index count_;
   const SlitFriction& friction_;
-  Section::Stiffness H_;  ///< with what branches add, over a step
+  Section::Stiffness H_;  ///< with the branches' part, over a step
   Section::Strain load_;  ///< at g = s = 0
   Slides begin_m_ = Slides::Zero(count_);
   Slides slides_m_, force_N_;
-  double stiffness_;  ///< the mean of quick motions of s, N/m
+  double stiffness_;  ///< mean stiffness of s for fast motions, N/m
   Eigen::Matrix<double, kGaps, 1> openings_m_;
   double normal_N_ = 0;
   InternalVariables internal_;

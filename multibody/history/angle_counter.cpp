@@ -12,7 +12,8 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-/// The rotation about an axis that comes next to a rotation q, but for full turns, and its rate.
+/// The angle of the rotation about an axis that is nearest to a rotation q, modulo full turns, and
+/// its rate.
 /// @param w  angular velocity in the axes to which q leads
 CountedAngle about(const Vector3d& axis, const Quaterniond& q, const Vector3d& w) {
   // 2 atan(s / c) with q' = w q / 2.
@@ -35,7 +36,7 @@ AngleCounter::AngleCounter(const Model& model, WatchedMarkers& markers) {
   }
 }
 
-/// In the axes of the marker that the angle is measured from.
+/// Motion of the measured marker in the axes of the marker from which the angle is measured.
 WatchedMarkers::Motion AngleCounter::relative(const Angle& angle, const WatchedMarkers& markers) {
   const WatchedMarkers::Motion& motion = markers.motions[angle.place];
   if (!angle.place_from) return motion;

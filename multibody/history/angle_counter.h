@@ -13,11 +13,11 @@ namespace flexneck::multibody {
 /// Counts the turns of a model's measured angles along a run.
 class AngleCounter {
  public:
-  /// @param markers  to which it adds those that it needs
+  /// @param markers  the needed markers are added to it
   AngleCounter(const Model& model, WatchedMarkers& markers);
 
   void count(double time_s, const WatchedMarkers& markers);
-  /// Largest angular velocity of a measured marker against the one it is measured from.
+  /// Largest angular velocity of a measured marker relative to the one from which it is measured.
   double fastest_rad_s(const WatchedMarkers& markers) const;
   std::size_t size() const { return angles_.size(); }
   double angle_rad(std::size_t index) const { return angles_[index].counted.angle_rad; }

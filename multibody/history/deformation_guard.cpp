@@ -18,9 +18,10 @@ struct Limits {
   double told, stopped;
 };
 constexpr Limits kRotation_rad = {1, 2 * std::numbers::pi};
-constexpr Limits kDisplacement = {0.5, 5};  ///< lengths of the body
+constexpr Limits kDisplacement = {0.5, 5};  ///< in lengths of the body
 
-/// Diagonal of the box round nodes and interfaces; of a body without extent its radius of inertia.
+/// Length of a body: the diagonal of the bounding box of nodes and interfaces, or its radius of
+/// inertia if it has no extent.
 double length_of(const fe_modal::ModalBody& body) {
   Vector3d lowest =
       body.interfaces.empty() ? Vector3d::Zero().eval() : body.interfaces.front().position_m;
@@ -71,7 +72,7 @@ void DeformationGuard::check_large(double time_s, std::size_t body, const ConstV
   const auto consider = [&](double value, bool turns, const fe_modal::Interface* interface) {
     const Limits& limits = turns ? kRotation_rad : kDisplacement;
     is_beyond |= !(value <= limits.stopped);
-    // What is not a number is worse than all.
+    // NaN is worse than any number.
     if (!(value / limits.told <= worst.of_limit))
       worst = {value / limits.told, value, turns, interface, time_s};
   };

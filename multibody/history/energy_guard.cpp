@@ -13,14 +13,15 @@ namespace {
 constexpr double kTold = 1e-3;
 constexpr double kStopped = 1e-1;
 constexpr int kWrongSteps = 20;
-/// Speeds below this many times the absolute tolerance, in m/s: some hundred steps, each with an
-/// error of the tolerance, change their energy by more than is told.
+/// Bound of slow speeds in m/s as a multiple of the absolute tolerance: at speeds below it some
+/// hundred steps, each with an error of the tolerance, change the energy by more than the warning
+/// limit.
 constexpr double kSlow = 1e5;
-/// The same of speeds against a prescribed body, as a share of them: a body that stays where it is
-/// while its base moves has no energy but that of errors.
+/// The same multiple of the relative tolerance for speeds relative to a prescribed body: a body
+/// that stays in place while its base moves has no energy but that of errors.
 constexpr double kSteps = 1e5;
-/// Rounding of energies that are large beside their changes, as of a high place, is a thousandth of
-/// this share of them.
+/// Fraction of energies that are large compared with their changes, such as that of a high
+/// position: their rounding is a thousandth of it.
 constexpr double kDigits = 1e-10;
 constexpr int kDigitsOfTime = 9;
 
@@ -57,7 +58,7 @@ double EnergyGuard::see(double time_s, const Energies& stored, double dissipated
        std::abs(dissipated_J - books.first_dissipated_J), std::abs(work_J - books.first_work_J),
        kDigits * std::abs(stored.gravitational_J), kDigits * std::abs(work_J)});
   const double off_J = balance_J - books.first_balance_J;
-  // A balance that is not a number is off by more than everything.
+  // A balance that is NaN deviates by more than any number.
   if (!(std::abs(off_J) <= books.worst_J)) books.worst_J = std::abs(off_J);
   const bool departs = !(books.worst_J <= kTold * books.largest_J);
   if (departs && !books.departs) books.departs_at_s = time_s;

@@ -10,42 +10,42 @@
 
 namespace flexneck::multibody {
 
-/// The energies that a run has seen: with them it is taken up again.
+/// The energies of a run so far, with which it can be resumed.
 struct EnergyBooks {
   bool are_open = false;
   double first_balance_J = 0, first_gravitational_J = 0, first_dissipated_J = 0, first_work_J = 0;
   double largest_J = 0;     ///< kinetic, stored or dissipated energy or work, so far
-  double worst_J = 0;       ///< by how much the balance was off
-  double departs_at_s = 0;  ///< where it began to be off by more than is told
+  double worst_J = 0;       ///< largest deviation of the balance
+  double departs_at_s = 0;  ///< time when the deviation began to exceed the warning limit
   bool departs = false;
-  int wrong_steps = 0;  ///< one after the other
+  int wrong_steps = 0;  ///< number of consecutive wrong steps
 };
 
-/// Watches the balance of energy of a run in time,
+/// Monitors the balance of energy of a run in time,
 ///   kinetic + gravitational + strain + dissipated - work,
-/// which must stay what it was. It is told where it changes by more than 1e-3 of the run's largest
-/// energy, and ends the run where it is off by more than 1e-1 for twenty steps: a motion whose
-/// energy is wrong is wrong. A motion that only begins has energies of the size of a step's error;
+/// which must be constant. It warns if the balance changes by more than 1e-3 of the run's largest
+/// energy, and ends the run if it deviates by more than 1e-1 for twenty steps: a motion with a
+/// wrong energy is wrong. A motion that only begins has energies of the size of a step's error;
 /// they outgrow it within these steps.
 class EnergyGuard {
  public:
   EnergyGuard(const Model& model, Tolerance tolerance);
 
-  /// Looks at the balance at an output, for warnings().
-  /// @return by how much it is off, J
+  /// Records the balance at an output, for warnings().
+  /// @return its deviation, J
   double see(double time_s, const Energies& stored, double dissipated_J, double work_J);
-  /// Judges the balance behind each accepted step, and before the first.
-  /// @throws ComputationError that says when and by how much the balance is off.
+  /// Checks the balance after each accepted step, and before the first.
+  /// @throws ComputationError with the time and the size of the deviation.
   void check(double time_s, const Energies& stored, double dissipated_J, double work_J);
-  /// A sentence if there is something to tell.
+  /// A warning if the balance has deviated; else empty.
   std::vector<std::string> warnings() const;
 
   const EnergyBooks& books() const { return books_; }
   void take_up(const EnergyBooks& books) { books_ = books; }
 
  private:
-  double floor_J_;        ///< energies below are those of errors that the tolerances allow
-  double carried_share_;  ///< of the energy of bodies carried along, in the same way
+  double floor_J_;        ///< energies below it may be errors within the tolerances
+  double carried_share_;  ///< the same as a fraction of the energy of carried bodies
   EnergyBooks books_;
 };
 

@@ -19,19 +19,18 @@ struct MarkerHistory {
   Eigen::Matrix3Xd angular_acceleration_rad_s2;  ///< world
 };
 
-/// What body i exerts on body j through a joint, in the axes of marker i (the moving node frame on
+/// Reaction of body i on body j through a joint, in the axes of marker i (the moving node frame on
 /// a deformable body), about the joint point.
 struct JointHistory {
   std::string name;
   Eigen::Matrix3Xd force_N;
   Eigen::Matrix3Xd moment_Nm;
-  /// Components that the equations of motion leave open because joints hold the same more than
-  /// once, such as "force y, moment x"; what is recorded of them is one of many solutions. Empty as
-  /// a rule.
+  /// Components that the equations of motion leave undetermined because of redundant joints, such
+  /// as "force y, moment x"; their recorded values are one of many solutions. Normally empty.
   std::string undetermined = {};
 };
 
-/// One of the model's measured angles, counted over turns.
+/// One of the model's measured angles, with its turns counted.
 struct AngleHistory {
   std::string name;
   Eigen::VectorXd angle_rad;
@@ -44,10 +43,11 @@ struct ModalHistory {
   Eigen::MatrixXd coordinates;  ///< kg^(1/2) m
 };
 
-/// The whole state of a body that is not prescribed: with it a run may go on from any output.
+/// The whole state of a body that is not prescribed, with which a run may be resumed from any
+/// output.
 struct BodyHistory {
   std::string name;
-  Eigen::Matrix3Xd position_m;              ///< of its origin, world
+  Eigen::Matrix3Xd position_m;              ///< position of its origin, world
   Eigen::Matrix4Xd rotation;                ///< unit quaternion body to world: w, x, y, z
   Eigen::Matrix3Xd velocity_m_s;            ///< world
   Eigen::Matrix3Xd angular_velocity_rad_s;  ///< body axes
@@ -57,32 +57,33 @@ struct BodyHistory {
   Eigen::VectorXd inertia = {};
 };
 
-/// Where the output asks for it.
+/// States, recorded if the output options ask for them.
 struct StateHistory {
   std::vector<BodyHistory> bodies;
-  Eigen::MatrixXd internal;  ///< variables of the branches of sections, m and rad, a column a time
-  /// Angles that count turns, rad, a column a time: of joints, "joint NAME", and those that are
-  /// measured, "angle NAME".
+  Eigen::MatrixXd internal;  ///< variables of the branches of sections, m and rad, one column per
+                             ///< time
+  /// Angles with their turns counted, rad, one column per time: of joints, "joint NAME", and
+  /// measured ones, "angle NAME".
   std::vector<std::string> angle_names;
   Eigen::MatrixXd angles;
 };
 
 struct EnergyHistory {
   Eigen::VectorXd kinetic_J, gravitational_J;
-  Eigen::VectorXd strain_J;  ///< of bodies, springs and bushings
-  /// By the damping of modes, dampers, friction and hysteresis, since the start.
+  Eigen::VectorXd strain_J;  ///< stored energy of bodies, springs and bushings
+  /// Energy dissipated by the damping of modes, dampers, friction and hysteresis since the start.
   Eigen::VectorXd dissipated_J;
   Eigen::VectorXd work_J;  ///< done by forces and prescribed bodies, since the start
 };
 
-/// By how much the bodies' motion misses the joints, the largest over the joints; zero in the
-/// recursive form, whose coordinates cannot miss them.
+/// Largest residuals of the joints in the bodies' motion; zero in the recursive form, whose
+/// coordinates always satisfy them.
 struct ConstraintHistory {
-  Eigen::VectorXd position_m, orientation_rad;           ///< of positions and of orientations
+  Eigen::VectorXd position_m, orientation_rad;  ///< residuals of positions and of orientations
   Eigen::VectorXd velocity_m_s, angular_velocity_rad_s;  ///< their rates
 };
 
-/// What set the length of accepted steps, and of how many.
+/// Cause that limited the length of accepted steps, with the number of these steps.
 struct StepLimit {
   std::string what;  ///< e.g. "error: rate of deformation of body 'neck'"
   int steps = 0;
@@ -91,33 +92,34 @@ struct StepLimit {
 struct StepStatistics {
   int accepted = 0;
   int rejected = 0;
-  int evaluations = 0;               ///< of the equations of motion
-  double max_position_residual = 0;  ///< of the constraints, m and rad
+  int evaluations = 0;               ///< number of evaluations of the equations of motion
+  double max_position_residual = 0;  ///< residual of the constraints, m and rad
   double max_velocity_residual = 0;
-  std::vector<StepLimit> limits;  ///< the most frequent first
+  std::vector<StepLimit> limits;  ///< most frequent first
 };
 
-/// What a run leaves, at fixed times.
+/// Results of a run at its output times.
 struct History {
-  Eigen::Index handed_on = 0;  ///< outputs before these, which OutputOptions::sink took
+  Eigen::Index handed_on = 0;  ///< number of earlier outputs, which OutputOptions::sink took
   Eigen::VectorXd time_s;
   std::vector<MarkerHistory> markers;
   std::vector<JointHistory> joints;
   std::vector<AngleHistory> angles;
   std::vector<ModalHistory> modal;
-  StateHistory state = {};  ///< empty as a rule
+  StateHistory state = {};  ///< normally empty
   EnergyHistory energy;
   ConstraintHistory constraints;
   StepStatistics statistics;
-  /// Independent motions that joints and motors leave at the start; negative: not known. Less the
-  /// redundant constraints it is Gruebler's count.
+  /// Degrees of freedom that joints and motors leave at the start; negative: not known. Less the
+  /// number of redundant constraints it is Gruebler's count.
   int freedoms = -1;
-  /// Constraints left out at the start because others hold the same, such as "joint 'a', row 4".
+  /// Constraints left out at the start because they are redundant, such as "joint 'a', row 4".
   std::vector<std::string> redundant_constraints;
-  std::string incomplete;  ///< why the run ended early; empty as a rule
-  /// Sentences: what of the results is not to be trusted. Empty as a rule.
+  std::string incomplete;  ///< reason why the run ended early; normally empty
+  /// Warnings on results that are not reliable. Normally empty.
   std::vector<std::string> warnings = {};
 
+  /// The history of a marker or joint.
   /// @throws InputError if there is none of that name.
   const MarkerHistory& marker(const std::string& name) const;
   const JointHistory& joint(const std::string& name) const;

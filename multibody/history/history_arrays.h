@@ -9,11 +9,11 @@
 
 namespace flexneck::multibody {
 
-/// Whether an array has one entry per time, not a column.
+/// True if an array has one entry per time, false if it has one column.
 template <class Array>
 inline constexpr bool kIsOnePerTime = std::remove_cvref_t<Array>::ColsAtCompileTime == 1;
 
-/// Calls visit(array) for each array of a history that has a column, or an entry, per time.
+/// Calls visit(array) for each array of a history with a column, or an entry, per time.
 /// @param history  const or not
 template <class AnyHistory, class Visit>
 void visit_arrays(AnyHistory& history, const Visit& visit) {
@@ -50,7 +50,7 @@ void visit_arrays(AnyHistory& history, const Visit& visit) {
     visit(*part);
 }
 
-/// How many numbers each output of a history has.
+/// Number of values in each output of a history.
 inline Eigen::Index numbers_per_output(const History& history) {
   Eigen::Index numbers = 0;
   visit_arrays(history, [&]<class Array>(const Array& values) {

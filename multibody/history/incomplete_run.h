@@ -9,7 +9,7 @@
 
 namespace flexneck::multibody {
 
-/// A run that could not go on: when and why, and what was computed until then.
+/// Thrown if a run cannot go on, with the time, the reason and the results until then.
 class IncompleteRun : public ComputationError {
  public:
   IncompleteRun(const std::string& why, History computed)

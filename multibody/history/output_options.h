@@ -12,12 +12,12 @@ namespace flexneck::multibody {
 struct OutputOptions {
   double end_time_s = 1.0;
   double interval_s = 1e-3;
-  /// Where there is one, it takes the outputs in blocks as they come, so that memory does not grow
-  /// with their number. What the run returns then has the last block only.
+  /// If given, it takes the outputs in blocks while the run computes them, so that memory does not
+  /// grow with their number. The run then returns the last block only.
   std::function<void(const History& outputs)> sink = {};
   Eigen::Index block = 0;   ///< outputs of a block, with a sink
-  bool states = false;      ///< whether History::state is recorded
-  double begin_time_s = 0;  ///< that of the model's start
+  bool states = false;      ///< true to record History::state
+  double begin_time_s = 0;  ///< time of the model's start
 };
 
 }  // namespace flexneck::multibody

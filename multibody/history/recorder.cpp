@@ -30,7 +30,7 @@ void resize(Array& values, Index columns) {
 
 OutputTimes::OutputTimes(const OutputOptions& output)
     : begin_s_(output.begin_time_s), interval_s_(output.interval_s), end_s_(output.end_time_s) {
-  constexpr double kSlack = 1e-9;  // of an interval: the end may be a multiple but for rounding
+  constexpr double kSlack = 1e-9;  // fraction of the interval: rounding of the end
   const double length = end_s_ - begin_s_;
   const auto whole = static_cast<Index>(length / interval_s_ + kSlack);
   const bool end_is_multiple =
@@ -121,7 +121,7 @@ void Recorder::internal(Index column, const VectorXd& variables) {
 void Recorder::make_room() {
   const Index size = std::min(block_, columns() - history_.handed_on);
   visit_arrays(history_, [&](auto& values) { resize(values, size); });
-  // The largest residual of the joints is kept.
+  // Residuals start at zero, since residuals() keeps the largest of the joints.
   ConstraintHistory& constraints = history_.constraints;
   for (VectorXd* part : {&constraints.position_m, &constraints.orientation_rad,
                          &constraints.velocity_m_s, &constraints.angular_velocity_rad_s})
@@ -148,7 +148,7 @@ void Recorder::marker(Index column, std::size_t index, const MarkerState& motion
   marker.angular_velocity_rad_s.col(column) = motion.angular_velocity_rad_s;
   marker.acceleration_m_s2.col(column) = motion.acceleration_m_s2;
   marker.angular_acceleration_rad_s2.col(column) = motion.angular_acceleration_rad_s2;
-  // Of the two quaternions of a rotation, the one near the last.
+  // A rotation has two quaternions: take the one near the last.
   const Eigen::Quaterniond q(motion.rotation);
   Eigen::Vector4d rotation(q.w(), q.x(), q.y(), q.z());
   const double* const last =
@@ -194,7 +194,7 @@ void Recorder::look(Index column) {
   for (std::size_t k = 0; k < history_.angles.size(); ++k)
     history_.angles[k].angle_rad[place(column)] = watch_.angles().angle_rad(k);
   if (!keeps_states()) return;
-  // They are the last rows.
+  // The measured angles are the last rows.
   const auto measured = static_cast<Index>(history_.angles.size());
   for (Index k = 0; k < measured; ++k)
     history_.state.angles.col(place(column)).tail(measured)[k] =

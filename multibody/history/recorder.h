@@ -15,7 +15,7 @@
 
 namespace flexneck::multibody {
 
-/// The beginning and multiples of the interval from it up to the end, and the end.
+/// Output times: the beginning, multiples of the interval after it up to the end, and the end.
 class OutputTimes {
  public:
   explicit OutputTimes(const OutputOptions& output);
@@ -29,64 +29,65 @@ class OutputTimes {
   Eigen::Index count_;
 };
 
-/// How many numbers an output has.
+/// Number of values in an output.
 Eigen::Index numbers_per_output(const Model& model);
 
-/// Fills a history, one column per output time, in their order. Of a run that hands its outputs on,
-/// it has one block at a time.
+/// Fills a history, one column per output time, in their order. With a sink it holds one block of
+/// the outputs at a time.
 class Recorder {
  public:
   Recorder(const Model& model, const OutputOptions& output)
       : Recorder(model, output, RunWatch(model)) {}
-  /// @param watch  of a run that has begun
+  /// @param watch  watch of a run that has begun
   Recorder(const Model& model, const OutputOptions& output, RunWatch watch);
 
-  /// Looks at each output, and between outputs where it is shown more.
+  /// The watch, which sees each output and further states between outputs.
   RunWatch& watch() { return watch_; }
 
   double time_s(Eigen::Index column) const { return times_[column]; }
   Eigen::Index columns() const { return times_.count(); }
 
-  /// Before the first of a column: hands on the block that it does not belong to.
+  /// Begins a column; passes the previous block to the sink if the column does not belong to it.
   void begin(Eigen::Index column);
   void marker(Eigen::Index column, std::size_t index, const MarkerState& motion);
-  /// @param world  in world axes
-  /// @param R_i    marker i's axes to the world
+  /// @param world  reaction in world axes
+  /// @param R_i    rotation from marker i's axes to the world
   void joint(Eigen::Index column, std::size_t index, const Reaction& world,
              const Eigen::Matrix3d& R_i);
-  /// @param body  among the model's bodies; nothing is recorded of one that has no modes
-  /// @throws ComputationError if it is deformed beyond reason, see DeformationGuard.
+  /// @param body  index among the model's bodies; nothing is recorded for one without modes
+  /// @throws ComputationError if its deformation exceeds the limits of DeformationGuard.
   void modal(Eigen::Index column, std::size_t body, const Eigen::VectorXd& a);
-  /// Whether state() and internal() are asked for.
+  /// Returns whether state() and internal() are to be called.
   bool keeps_states() const { return !history_.state.bodies.empty(); }
-  /// @param body  among the model's bodies, not prescribed
+  /// @param body  index among the model's bodies, not prescribed
   void state(Eigen::Index column, std::size_t body, const BodyState& motion);
   void internal(Eigen::Index column, const Eigen::VectorXd& variables);
-  /// @param joint  among the model's joints, of those that have an angle
+  /// @param joint  index among the model's joints, of a joint with an angle
   void joint_angle(Eigen::Index column, std::size_t joint, double angle_rad);
   void energy(Eigen::Index column, const Energies& stored, double dissipated_J, double work_J);
-  /// Where nothing is lost, behind energy(): the work is what the energies have gained since the
-  /// first column.
+  /// Sets the work, after energy(), for motions without dissipation: it is the gain of the energies
+  /// since the first column.
   void conserve_energy(Eigen::Index column);
-  /// Records the angles, once all markers are. @throws ComputationError as RunWatch::look().
+  /// Records the measured angles, after all markers.
+  /// @throws ComputationError as RunWatch::look().
   void look(Eigen::Index column);
-  /// Of one joint; the largest of all counts.
+  /// Records the residuals of one joint; the largest of all joints is kept.
   void residuals(Eigen::Index column, const Violation& position, const Violation& velocity);
 
   StepStatistics& statistics() { return history_.statistics; }
-  /// Adds to what is undetermined of a joint's reaction.
+  /// Adds undetermined components of a joint's reaction.
   /// @param components  of force and moment in marker i's axes
   void undetermined(std::size_t joint, const Eigen::Array<bool, 6, 1>& components);
-  /// At the start: freedoms, redundant constraints, and sentences on what is in doubt.
+  /// Records the mobility at the start: degrees of freedom, redundant constraints and warnings.
   void mobility(int freedoms, std::vector<std::string> redundant, std::vector<std::string> doubts);
   History take();
-  /// The columns before this one only, for a run that ended early.
+  /// Returns only the columns before this one, for a run that ended early.
   History take_incomplete(Eigen::Index column, const std::string& why);
 
  private:
   Eigen::Index place(Eigen::Index column) const { return column - history_.handed_on; }
   void prepare_states(const Model& model);
-  /// Room for the block that begins after what was handed on.
+  /// Allocates the block that follows the outputs passed to the sink.
   void make_room();
 
   OutputTimes times_;
@@ -95,8 +96,8 @@ class Recorder {
   History history_;
   RunWatch watch_;
   std::vector<std::size_t> modal_of_body_, state_of_body_, state_of_joint_;
-  std::vector<std::optional<std::size_t>> watched_;  ///< place of the markers in the watch
-  std::vector<Eigen::Vector4d> last_rotations_;      ///< of the markers, in the block before
+  std::vector<std::optional<std::size_t>> watched_;  ///< index of each marker in the watch
+  std::vector<Eigen::Vector4d> last_rotations_;      ///< by marker, in the block before
   double first_energy_J_ = 0;
   std::vector<Eigen::Array<bool, 6, 1>> undetermined_;
 };

@@ -15,7 +15,7 @@ double RunWatch::fastest_rad_s() const {
 
 int RunWatch::looks_until(double time_s) const {
   constexpr double kApart_rad = 1;
-  constexpr double kMost = 1e6;  // no state is so far from the last one but by a rate gone wild
+  constexpr double kMost = 1e6;  // consecutive states are so far apart only if rates diverge
   const double turned =
       (time_s - looked_s_) * std::max(looked_fastest_rad_s_, fastest_rad_s()) / kApart_rad;
   return 1 + static_cast<int>(turned < kMost ? turned : kMost);

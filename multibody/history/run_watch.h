@@ -12,33 +12,35 @@
 
 namespace flexneck::multibody {
 
-/// Watches a run besides what the run records: at its start, at its outputs and behind every
-/// accepted step (Equations::accept()), and inside of steps in which watched markers turn far. It
-/// has the guards that end or annotate a run, and counts the turns of measured angles.
+/// Monitors a run: at its start, at its outputs, after every accepted step (Equations::accept()),
+/// and inside steps in which watched markers rotate far. It contains the guards that end or
+/// annotate a run, and counts the turns of measured angles.
 class RunWatch {
  public:
   explicit RunWatch(const Model& model);
 
-  /// The model's markers whose rotations are needed at each look.
+  /// The model's markers whose rotations each look() needs.
   const std::vector<std::size_t>& markers() const { return markers_.markers; }
-  /// @param index  among markers()
+  /// Sets the motion of a marker.
+  /// @param index  index in markers()
   void show(std::size_t index, const Eigen::Matrix3d& R, const Eigen::Vector3d& w_rad_s) {
     markers_.motions[index] = {R, w_rad_s};
   }
-  /// How many looks bring a run from the last one to what is shown now, at most a radian apart by
-  /// the angular velocities here and there.
+  /// Number of calls of look() from the last one to the motion set now, such that rotations between
+  /// them are at most one radian by the angular velocities at both ends.
   int looks_until(double time_s) const;
-  /// Takes what is shown, in the order of time. @throws ComputationError, see TurnGuard.
+  /// Checks the motion set by show() and counts turns; called in the order of time.
+  /// @throws ComputationError, see TurnGuard.
   void look(double time_s);
-  /// @throws ComputationError for a body that is deformed beyond reason, see DeformationGuard.
+  /// @throws ComputationError for a deformation beyond the limits of DeformationGuard.
   void check_deformation(double time_s, std::size_t body,
                          const Eigen::Ref<const Eigen::VectorXd>& a) {
     deformation_.check(time_s, body, a);
   }
 
-  /// At the last look.
+  /// The measured angles at the last look().
   const AngleCounter& angles() const { return angles_; }
-  /// Sentences on what of the results is not to be trusted.
+  /// Warnings on results that are not reliable.
   std::vector<std::string> warnings() const { return deformation_.warnings(); }
 
  private:

@@ -11,24 +11,24 @@
 
 namespace flexneck::multibody {
 
-/// Watches force elements whose loads follow from the rotation vector from one body to another
+/// Monitors force elements whose loads follow from the rotation vector from one body to another
 /// (TurnedForce), which jumps at half a turn: ends the run above 3 rad.
 class TurnGuard {
  public:
-  /// @param markers  to which it adds those that it needs
+  /// @param markers  the needed markers are added to it
   TurnGuard(const Model& model, WatchedMarkers& markers);
 
-  /// Rotations are followed from one time to the next.
+  /// Checks the rotations, which are followed from one time to the next.
   /// @throws ComputationError naming the element and the time.
   void check(double time_s, const WatchedMarkers& markers);
-  /// Largest angular velocity of an element's marker j against its marker i.
+  /// Largest angular velocity of an element's marker j relative to its marker i.
   double fastest_rad_s(const WatchedMarkers& markers) const;
 
  private:
   struct Watched {
     std::string title;
     std::size_t place_i, place_j;
-    /// From i to j at the last time; at first that of no rotation.
+    /// Rotation from i to j at the last time; initially the identity.
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   };
   std::vector<Watched> elements_;

@@ -9,16 +9,16 @@
 
 namespace flexneck::multibody {
 
-/// How some of a model's markers are turned at one time, and turn.
+/// Rotations and angular velocities of some of a model's markers at one time.
 struct WatchedMarkers {
   struct Motion {
     Eigen::Matrix3d R = Eigen::Matrix3d::Identity();    ///< marker axes to world
     Eigen::Vector3d w_rad_s = Eigen::Vector3d::Zero();  ///< world
   };
-  std::vector<std::size_t> markers;  ///< of the model, distinct
-  std::vector<Motion> motions;       ///< of them
+  std::vector<std::size_t> markers;  ///< indices in the model, distinct
+  std::vector<Motion> motions;       ///< motions of these markers
 
-  /// The place of a marker, which is added if it is not there.
+  /// The index of a marker in `markers`, to which it is added if missing.
   std::size_t place_of(std::size_t marker) {
     const auto found = std::ranges::find(markers, marker);
     if (found != markers.end()) return static_cast<std::size_t>(found - markers.begin());

@@ -24,7 +24,7 @@ inline constexpr JointMotionLaw kCylindricalMotion{
           q[1] = angle_about(frame.axis_f, R);
         }};
 
-/// Slides along an axis and turns about it.
+/// A joint that slides along an axis and rotates about it.
 inline constexpr JointKind kCylindricalJoint{.name = "cylindrical",
                                              .translation = TranslationConstraint::across_axis,
                                              .rotation = RotationConstraint::common_axis,

@@ -5,7 +5,7 @@
 
 namespace flexneck::multibody {
 
-/// A massless rod with a spherical joint at each end. It holds too little for a tree.
+/// A massless rod with a spherical joint at each end. It constrains too little for a tree.
 inline constexpr JointKind kDistanceJoint{.name = "distance",
                                           .translation = TranslationConstraint::distance,
                                           .length = {.key = "length", .value = &Joint::length_m}};

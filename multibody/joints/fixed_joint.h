@@ -11,7 +11,7 @@ inline constexpr JointMotionLaw kFixedMotion{
     .nearest = [](const JointFrame&, const Eigen::Matrix3d&, const Eigen::Vector3d&,
                   Eigen::VectorXd&) {}};
 
-/// All is held.
+/// A joint that constrains all motions.
 inline constexpr JointKind kFixedJoint{.name = "fixed",
                                        .translation = TranslationConstraint::all,
                                        .rotation = RotationConstraint::all,

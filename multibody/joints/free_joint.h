@@ -5,7 +5,8 @@
 
 namespace flexneck::multibody {
 
-/// Joins nothing: its bodies move as if it were not there, and it carries no load.
+/// A joint that constrains nothing: its bodies move as if it were not there, and it transmits no
+/// load.
 inline constexpr JointKind kFreeJoint{.name = "free"};
 
 }  // namespace flexneck::multibody

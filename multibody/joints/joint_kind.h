@@ -9,28 +9,28 @@ namespace flexneck::multibody {
 
 struct Joint;
 
-/// What a joint holds of the positions of its markers' origins. The axis is that of marker i.
+/// Constraint of the positions of a joint's markers' origins. The axis is that of marker i.
 enum class TranslationConstraint {
   none,
-  all,          ///< they are one point
-  across_axis,  ///< that of marker j is on the axis through that of marker i
-  along_axis,   ///< that of marker j is in the plane across the axis through that of marker i
-  distance      ///< they are a length apart
+  all,          ///< the origins coincide
+  across_axis,  ///< the origin of j is on the axis through that of i
+  along_axis,   ///< the origin of j is in the plane normal to the axis through that of i
+  distance      ///< the origins are a given length apart
 };
 
-/// What a joint holds of the orientations of its markers.
+/// Constraint of the orientations of a joint's markers.
 enum class RotationConstraint {
   none,
-  all,          ///< they are the same
-  common_axis,  ///< the axes of i and j are the same
+  all,          ///< the orientations are equal
+  common_axis,  ///< the axes of i and j are equal
   crossed_axes  ///< the axis of i is perpendicular to the second axis, of j
 };
 
 /// The axes that a joint needs.
 enum class JointAxes {
   none,
-  common,  ///< one, with the same components in the axes of both markers
-  two      ///< one of marker i, and a second one of marker j
+  common,  ///< one axis, with the same components in the axes of both markers
+  two      ///< an axis of marker i, and a second one of marker j
 };
 
 /// A length that a kind of joint needs.
@@ -47,12 +47,12 @@ struct JointKind {
   TranslationConstraint translation = TranslationConstraint::none;
   RotationConstraint rotation = RotationConstraint::none;
   JointAxes axes = JointAxes::none;
-  bool has_distance = false;  ///< of marker j along the axis, a joint coordinate
-  bool has_angle = false;     ///< of marker j about the axis, a joint coordinate
+  bool has_distance = false;  ///< distance of marker j along the axis, a joint coordinate
+  bool has_angle = false;     ///< angle of marker j about the axis, a joint coordinate
   JointLength length = {};
   bool advances = false;  ///< the distance is the angle times lead / 2 pi
-  /// The motion that it leaves, for the recursive formulation; with none it can hang no body on
-  /// another, and only closes loops in the descriptor formulation.
+  /// The free motion, for the recursive formulation; without it the joint can connect no body to a
+  /// tree, and only closes loops in the descriptor formulation.
   const JointMotionLaw* motion = nullptr;
 
   constexpr bool holds_nothing() const {

@@ -25,7 +25,7 @@ inline constexpr JointMotionLaw kPlanarMotion{
           q[2] = angle_about(frame.axis_f, R);
         }};
 
-/// Slides in the plane across an axis and turns about the axis.
+/// A joint that slides in the plane normal to an axis and rotates about the axis.
 inline constexpr JointKind kPlanarJoint{.name = "planar",
                                         .translation = TranslationConstraint::along_axis,
                                         .rotation = RotationConstraint::common_axis,

@@ -18,7 +18,7 @@ inline constexpr JointMotionLaw kPrismaticMotion{
     .nearest = [](const JointFrame& frame, const Eigen::Matrix3d&, const Eigen::Vector3d& d,
                   Eigen::VectorXd& q) { q[0] = frame.axis_f.dot(d); }};
 
-/// Slides along an axis (ATB's slip joint).
+/// A joint that slides along an axis (ATB's slip joint).
 inline constexpr JointKind kPrismaticJoint{.name = "prismatic",
                                            .translation = TranslationConstraint::across_axis,
                                            .rotation = RotationConstraint::all,

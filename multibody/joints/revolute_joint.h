@@ -16,7 +16,7 @@ inline constexpr JointMotionLaw kRevoluteMotion{
     .nearest = [](const JointFrame& frame, const Eigen::Matrix3d& R, const Eigen::Vector3d&,
                   Eigen::VectorXd& q) { q[0] = angle_about(frame.axis_f, R); }};
 
-/// Turns about an axis.
+/// A joint that rotates about an axis.
 inline constexpr JointKind kRevoluteJoint{.name = "revolute",
                                           .alias = "pin",
                                           .translation = TranslationConstraint::all,

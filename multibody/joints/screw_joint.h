@@ -8,7 +8,7 @@
 
 namespace flexneck::multibody {
 
-/// Coordinate: the angle, which the distance follows.
+/// Coordinate: the angle, which determines the distance.
 inline constexpr JointMotionLaw kScrewMotion{
     .rates = 1,
     .translates = true,
@@ -22,14 +22,14 @@ inline constexpr JointMotionLaw kScrewMotion{
     .nearest =
         [](const JointFrame& frame, const Eigen::Matrix3d& R, const Eigen::Vector3d& d,
            Eigen::VectorXd& q) {
-          // Which turn it is in is told by the distance.
+          // The distance determines the turn.
           constexpr double kTurn = 2 * std::numbers::pi;
           const double angle = angle_about(frame.axis_f, R);
           const double along = frame.axis_f.dot(d) / frame.lead_m_per_rad;
           q[0] = angle + kTurn * std::round((along - angle) / kTurn);
         }};
 
-/// Turns about an axis and advances along it by the lead at every turn.
+/// A joint that rotates about an axis and advances along it by the lead per turn.
 inline constexpr JointKind kScrewJoint{
     .name = "screw",
     .translation = TranslationConstraint::across_axis,

@@ -21,7 +21,7 @@ inline constexpr JointMotionLaw kSphericalMotion{
           q << turn.w(), turn.x(), turn.y(), turn.z();
         }};
 
-/// Turns in every direction about a point.
+/// A joint that rotates in every direction about a point.
 inline constexpr JointKind kSphericalJoint{.name = "spherical",
                                            .alias = "ball",
                                            .translation = TranslationConstraint::all,

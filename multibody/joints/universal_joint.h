@@ -7,7 +7,7 @@
 
 namespace flexneck::multibody {
 
-/// Coordinates: the angles about F's and M's axis.
+/// Coordinates: the angles about F's and M's axes.
 inline constexpr JointMotionLaw kUniversalMotion{
     .rates = 2,
     .update =
@@ -29,7 +29,7 @@ inline constexpr JointMotionLaw kUniversalMotion{
               angle_about(frame.axis_m, frame.R0.transpose() * turn_about(frame.axis_f, -q[0]) * R);
         }};
 
-/// An axis of i stays perpendicular to one of j (ATB's Euler joint).
+/// A joint that keeps an axis of i perpendicular to one of j (ATB's Euler joint).
 inline constexpr JointKind kUniversalJoint{.name = "universal",
                                            .translation = TranslationConstraint::all,
                                            .rotation = RotationConstraint::crossed_axes,

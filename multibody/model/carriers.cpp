@@ -56,7 +56,7 @@ Velocities carrier_velocities(const Model& model) {
     if (const auto* prescribed = std::get_if<PrescribedBody>(&model.bodies[b].kind))
       velocities[b] = PrescribedPath(model.bodies[b].initial_pose, *prescribed).at(0).velocity_m_s;
   const std::vector<Connection> all = connections(model);
-  // As many passes as the longest chain is long.
+  // There are as many passes as the longest chain has bodies.
   for (std::size_t pass = 0; pass <= model.bodies.size(); ++pass)
     for (const Connection& each : all) {
       carry(model, each, each.body_i, each.body_j, velocities);

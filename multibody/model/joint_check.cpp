@@ -10,14 +10,15 @@ namespace flexneck::multibody {
 namespace {
 
 constexpr double kTolerance = 1e-6;
-/// A system without extent, such as a point on a ball joint.
+/// Size of a system without extent, such as a point on a spherical joint.
 constexpr double kSmallestSize_m = 1e-3;
 
-/// The residual that rounding leaves whatever the tolerance, as a share of the system's size or
-/// speed, of its size in a second at rest, and of a distance from the world's origin.
+/// Residual of rounding at any tolerance, as a fraction of the system's size or speed, at rest of
+/// its size per second; kDigits is the fraction of the distance from the world's origin.
 constexpr double kRounding = 1e-11;
 constexpr double kDigits = 1e-13;
-/// Of a start that just fits, added up over a motion, for rows that are left out.
+/// Accumulated residual, over a motion, of rows that are left out if the start just passes the
+/// check.
 constexpr double kLeftOut = 1e-5;
 
 [[noreturn]] void refuse(const Joint& joint, const Model& model, const std::string& problem) {
@@ -69,7 +70,7 @@ void JointGuard::check(double time_s, std::size_t joint, const Violation& positi
   const double length = tolerance_.absolute + relative * size_m_ + kDigits * reach_m_;
   const double angle = tolerance_.absolute + relative;
   const double speed = tolerance_.absolute + relative * speed_m_s_;
-  // A residual that is not a number exceeds every tolerance.
+  // NaN exceeds every tolerance.
   if (position.translation <= length && position.rotation <= angle &&
       velocity.translation <= speed && size_m_ * velocity.rotation <= speed)
     return;

@@ -7,22 +7,22 @@
 
 namespace flexneck::multibody {
 
-/// What draws the m modal coordinates of a body back, equations.md section 3: mode l feels
-/// -stiffness_l (a_l - offset_l) - damping_l a_l'. With stress stiffening springs and dampers act
-/// on e = a - 1/2 [a^T T_k a] in place of a (section 3a). Slits that open and close take from the
-/// energy what SlitGaps says. A rigid body has none.
+/// Restoring and damping loads on the m modal coordinates of a body, equations.md section 3: on
+/// mode l -stiffness_l (a_l - offset_l) - damping_l a_l'. With stress stiffening springs and
+/// dampers act on e = a - 1/2 [a^T T_k a] instead of a (section 3a). Slits that open and close
+/// reduce the energy as in SlitGaps. A rigid body has none.
 struct ModalSprings {
   ModalSprings() = default;
   explicit ModalSprings(const DeformableBody& body);
 
-  /// Whether e differs from a.
+  /// Returns whether e differs from a.
   bool curved() const { return curvatures.size() > 0; }
 
-  /// Against growing a_l, where e is a.
+  /// Load against growing a_l, if e equals a.
   double load(Eigen::Index l, double a, double a_rate) const {
     return stiffness[l] * (a - offset[l]) + damping[l] * a_rate;
   }
-  /// Adds `factor` times the loads against growing a to `loads`, (m), whatever e is.
+  /// Adds `factor` times the loads against growing a to `loads`, (m), whether e equals a or not.
   template <typename Modal, typename Rate, typename Loads>
   void add_loads(const Modal& a, const Rate& a_rate, double factor, Loads&& loads) const {
     for (Eigen::Index k = 0; k < stiffness.size(); ++k) {
@@ -32,7 +32,7 @@ struct ModalSprings {
       if (curved()) loads.noalias() -= load * curvature(k) * a;
     }
   }
-  /// Adds `factor` times what gaps add to the loads against growing a.
+  /// Adds `factor` times the gaps' part of the loads against growing a.
   template <typename Modal, typename Loads>
   void add_gap_loads(const Modal& a, double factor, Loads&& loads) const {
     if (gaps.count() > 0)
@@ -64,7 +64,7 @@ struct ModalSprings {
   SlitGaps gaps;
 
  private:
-  /// Not above zero. At the least, g^T K_g g is -g^T C a.
+  /// Energy of the gaps, never positive. At its minimum g^T K_g g is -g^T C a.
   template <typename Modal>
   double gap_energy_J(const Modal& a) const {
     if (gaps.count() == 0) return 0;
@@ -74,14 +74,14 @@ struct ModalSprings {
   Eigen::Block<const Eigen::MatrixXd> curvature(Eigen::Index k) const {
     return curvatures.middleRows(k * stiffness.size(), stiffness.size());
   }
-  /// a^T T_k b.
+  /// Returns a^T T_k b.
   template <typename Modal, typename Other>
   double curved_product(Eigen::Index k, const Modal& a, const Other& b) const {
     double sum = 0;
     for (Eigen::Index j = 0; j < a.size(); ++j) sum += b[j] * curvature(k).col(j).dot(a);
     return sum;
   }
-  /// e_k.
+  /// Returns e_k.
   template <typename Modal>
   double stretch(Eigen::Index k, const Modal& a) const {
     return curved() ? a[k] - 0.5 * curved_product(k, a, a) : a[k];

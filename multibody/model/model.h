@@ -34,16 +34,16 @@ struct RigidBody {
 struct DeformableBody {
   fe_modal::ModalBody modes;      ///< the chosen modes only
   Eigen::VectorXd damping_ratio;  ///< zeta of each mode
-  /// Modal coordinates of the body without load, a permanent set, kg^(1/2) m; empty for none.
+  /// Modal coordinates of the unloaded body, a permanent set, kg^(1/2) m; empty for none.
   Eigen::VectorXd offset = {};
-  /// Whether its loads stiffen and soften it, by the geometric stiffness in its modes file
-  /// (equations.md section 3a). Without, it is linear in its own frame.
+  /// True if loads stiffen and soften it, by the geometric stiffness in its modes file
+  /// (equations.md section 3a). Otherwise it is linear in its own frame.
   bool stress_stiffening = false;
   /// Modal coordinates and rates at the start, kg^(1/2) m and kg^(1/2) m/s; empty: `offset`, at
   /// rest.
   Eigen::VectorXd initial_modal = {};
   Eigen::VectorXd initial_modal_rate = {};
-  /// Of slits that open and close; the modes are those with all of them shut.
+  /// Gaps of slits that open and close; the modes are those with all slits closed.
   SlitGaps gaps = {};
 };
 
@@ -54,12 +54,12 @@ struct PrescribedTurn {
   Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  ///< world, at time zero
   double initial_rate_rad_s = 0;
   TimeTable acceleration_rad_s2;  ///< zero outside
-  SmoothMotion motion = {};       ///< in rad where that says m
+  SmoothMotion motion = {};       ///< in rad where SmoothMotion has m
   HeldInput input = {};
 };
 
-/// A body that translates and turns in a given way, whatever acts on it. Its travel is the sum of
-/// an initial velocity, a table and a function of time. With nothing of it it is the ground.
+/// A body that translates and rotates in a prescribed way, whatever loads act on it. Its travel is
+/// the sum of an initial velocity, a table and a function of time. By default it is the ground.
 struct PrescribedBody {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector in the world
   double initial_velocity_m_s = 0;                       ///< along `direction`
@@ -73,40 +73,40 @@ struct Body {
   std::string name;
   std::variant<RigidBody, DeformableBody, PrescribedBody> kind;
   Pose initial_pose;
-  Eigen::Vector3d initial_velocity_m_s = Eigen::Vector3d::Zero();  ///< of the origin, world
+  Eigen::Vector3d initial_velocity_m_s = Eigen::Vector3d::Zero();            ///< origin, world
   Eigen::Vector3d initial_angular_velocity_rad_s = Eigen::Vector3d::Zero();  ///< body axes
-  /// Nobody gives these velocities: where joints and motors ask for others, they become the nearest
-  /// that fit.
+  /// The velocities are not given: if joints and motors demand others, they become the nearest that
+  /// fit.
   bool velocities_are_open = false;
 };
 
-/// A frame on a body: on a rigid or prescribed body anywhere, on a deformable one at an interface,
-/// whose motion it follows (finite rotation).
+/// A frame on a body: on a rigid or prescribed body at any position, on a deformable one at an
+/// interface, whose motion it follows (finite rotation).
 struct Marker {
   std::string name;
   std::size_t body = 0;
-  std::string interface;                                 ///< of a deformable body; else empty
+  std::string interface;                                 ///< empty unless on a deformable body
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< body frame; unused at an interface
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< marker axes to body axes
 };
 
-/// The angle by which a marker is turned about an axis, which counts turns from the start of a run
-/// on.
+/// The angle by which a marker is rotated about an axis, with turns counted from the start of a
+/// run.
 struct MeasuredAngle {
   std::string name;
   std::size_t marker = 0;
-  std::optional<std::size_t> relative_to;           ///< another marker; none: the world
+  std::optional<std::size_t> relative_to;           ///< another marker; the world if empty
   Eigen::Vector3d axis = Eigen::Vector3d::UnitY();  ///< unit vector in the axes of the other
-  double start_rad = 0;  ///< tells the turn in which it starts: within half a turn of this
+  double start_rad = 0;  ///< selects the turn in which it starts: within half a turn of this
 };
 
-/// When a run begins, and what its force elements and books of energy bring along; by default at
-/// time zero, at rest for long. Bodies start as they are given.
+/// Start time of a run, and the initial state of its force elements and energy balance; by default
+/// time zero, after a long time at rest. Bodies start in their given states.
 struct RunStart {
   double time_s = 0;
   Eigen::VectorXd internal = {};  ///< variables of the branches of sections; empty: relaxed
-  double dissipated_J = 0;        ///< by then
-  double work_J = 0;              ///< likewise
+  double dissipated_J = 0;        ///< energy dissipated until then
+  double work_J = 0;              ///< work done until then
 };
 
 struct Model {
@@ -118,7 +118,8 @@ struct Model {
   Eigen::Vector3d gravity_m_s2 = Eigen::Vector3d::Zero();  ///< world
   RunStart start = {};
 
-  /// @throws InputError if there is none of that name; the message lists those there are.
+  /// The index of a body, marker or joint.
+  /// @throws InputError if there is none of that name; the message lists the existing names.
   std::size_t body_index(const std::string& name) const;
   std::size_t marker_index(const std::string& name) const;
   std::size_t joint_index(const std::string& name) const;
@@ -133,7 +134,8 @@ Eigen::VectorXd initial_modal_rate(const DeformableBody& body);
 Eigen::VectorXd inertia_of(const Body& body);
 
 /// Checks names, indices, masses and inertias (symmetric, positive, triangle inequality), damping,
-/// unit vectors. @throws InputError naming the body, marker, joint or force.
+/// unit vectors.
+/// @throws InputError naming the body, marker, joint or force.
 void check(const Model& model);
 
 }  // namespace flexneck::multibody

@@ -19,9 +19,11 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Relative slack of every comparison that rounding may spoil: unit lengths, symmetry, triangles.
+/// Relative tolerance of every comparison that rounding may affect: unit lengths, symmetry,
+/// triangles.
 constexpr double kSlack = 1e-9;
-/// A file's modes must be mass-normalised to this; kModalBodyFormat's reader demands the same.
+/// Tolerance of the mass normalisation of a file's modes, the same as that of kModalBodyFormat's
+/// reader.
 constexpr double kMassNormalisation = 1e-6;
 
 [[noreturn]] void refuse(const std::string& who, const std::string& problem) {
@@ -53,8 +55,8 @@ void check_mass(const std::string& who, double mass_kg) {
   }
 }
 
-/// About the centre of mass. Equality in the triangle inequality is a flat body and allowed, and so
-/// are moments of zero (massless_rotation.h).
+/// Checks an inertia about the centre of mass. Equality in the triangle inequality is a flat body
+/// and allowed, and so are moments of zero (massless_rotation.h).
 void check_inertia(const std::string& who, const Matrix3d& inertia) {
   check_finite(who, "inertia", inertia);
   if ((inertia - inertia.transpose()).cwiseAbs().maxCoeff() >
@@ -125,7 +127,7 @@ void check_invariants(const std::string& who, const fe_modal::InertiaInvariants&
                       rounded_text(deviation));
     }
   }
-  // The modes of a body can never carry more inertia than it has.
+  // The modes of a body can never have more inertia than the body.
   if (Eigen::LLT<Eigen::MatrixXd>(mass).info() != Eigen::Success) {
     refuse(who,
            "its inertia invariants contradict each other: the mass matrix is not positive "

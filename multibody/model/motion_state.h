@@ -31,21 +31,20 @@ struct Reaction {
   Eigen::Vector3d moment_Nm;
 };
 
-/// Of all bodies that are not prescribed.
+/// Energies of all bodies that are not prescribed.
 struct Energies {
   double kinetic_J = 0;
   double gravitational_J = 0;
   double strain_J = 0;
-  /// Their kinetic energy if the fastest prescribed body carried them along, turning about any
-  /// axis.
+  /// Their kinetic energy if they were carried along by the fastest prescribed body, rotating about
+  /// any axis.
   double carried_J = 0;
 };
 
-/// Kinetic energy of a body that its base carries along, turning about any axis.
-/// @param v_m_s, w_rad_s  velocity of the base where the body's origin is, and angular velocity
-/// @param trace_kg_m2  of the body's inertia about its origin: of a moment of inertia that is half
-/// of
-///                     it, no axis of any body has more
+/// Kinetic energy of a body that its base carries along, rotating about any axis.
+/// @param v_m_s, w_rad_s  velocity of the base at the body's origin, and angular velocity
+/// @param trace_kg_m2  trace of the body's inertia about its origin; the moment of inertia about
+/// any axis of a body is at most half of it
 inline double carried_energy_J(const Eigen::Vector3d& v_m_s, const Eigen::Vector3d& w_rad_s,
                                double mass_kg, double trace_kg_m2) {
   return mass_kg / 2 * v_m_s.squaredNorm() + trace_kg_m2 / 4 * w_rad_s.squaredNorm();

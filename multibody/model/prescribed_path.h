@@ -27,27 +27,27 @@ class PrescribedPath {
  public:
   PrescribedPath(const Pose& start, const PrescribedBody& body);
 
-  /// @param table_time_s  at which accelerations are read, so that at the ends of an interval a
-  /// jump shows its inner side
+  /// @param table_time_s  time at which accelerations are read, so that a jump at the ends of an
+  /// interval shows its inner side
   PrescribedMotion at(double time_s, double table_time_s) const;
   PrescribedMotion at(double time_s) const { return at(time_s, time_s); }
 
-  /// The angle by which the body has turned, over full turns.
+  /// The angle of rotation of the body, with its full turns.
   double angle_rad(double time_s) const { return angle_.value(time_s); }
 
  private:
   void turn(double time_s, double table_time_s, PrescribedMotion& motion) const;
 
-  Eigen::Vector3d position_m_;  ///< of the start, and
+  Eigen::Vector3d position_m_;  ///< at the start, as is rotation_
   Eigen::Matrix3d rotation_;
   Eigen::Vector3d direction_, axis_, point_m_;
   PrescribedCoordinate travel_, angle_;
 };
 
-/// How prescribed bodies move.
+/// Motion of the prescribed bodies in the equations.
 enum class Drive {
   prescribed,  ///< as their tables say
-  held         ///< not at all, where they are at the time asked for
+  held         ///< none: they are fixed where they are at the given time
 };
 
 }  // namespace flexneck::multibody

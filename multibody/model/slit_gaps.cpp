@@ -16,11 +16,11 @@ using Eigen::VectorXd;
 
 namespace {
 constexpr double kRounding = 1e-13;
-constexpr int kMostPivots = 10000;  ///< which only rounding can make of few gaps
+constexpr int kMostPivots = 10000;  ///< a few gaps need so many only because of rounding
 }  // namespace
 
 VectorXd least_openings(const Eigen::MatrixXd& A, const VectorXd& r) {
-  if (!r.allFinite()) return r;  // a run that has gone astray sees it in its loads
+  if (!r.allFinite()) return r;  // a diverged run shows this in its loads
   if (!(r.array() < 0).any()) return VectorXd::Zero(r.size());
   std::vector<Index> open;
   for (Index k = 0; k < r.size(); ++k)
@@ -28,7 +28,7 @@ VectorXd least_openings(const Eigen::MatrixXd& A, const VectorXd& r) {
   for (int pivot = 0; pivot < kMostPivots; ++pivot) {
     VectorXd g = VectorXd::Zero(r.size());
     if (!open.empty()) g(open) = -A(open, open).llt().solve(r(open));
-    // What presses on shut gaps, over the largest load, and what opens, over the largest opening.
+    // Forces on closed gaps over the largest load, and openings over the largest opening.
     VectorXd allowed = (A * g + r) / r.cwiseAbs().maxCoeff();
     if (!open.empty()) allowed(open) = g(open) / g.cwiseAbs().maxCoeff();
     Index k = 0;

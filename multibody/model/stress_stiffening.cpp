@@ -11,8 +11,9 @@ namespace {
 using Eigen::Index;
 using fe_modal::GeometricStiffness;
 
-/// What loads along x, y and z do on the second-order displacements that are M-orthogonal to the
-/// modes: `along` on all, `shapes` (3, m) on the modes' share in them.
+/// Slopes of shapes by loads along x, y and z on the second-order displacements that are
+/// M-orthogonal to the modes: the loads on all such displacements, `along`, less the modes' part in
+/// them with `shapes` (3, m).
 ShapeSlopes packed(const DeformableBody& body, const std::vector<Eigen::MatrixXd>& along,
                    double factor, const Eigen::Matrix3Xd& shapes) {
   const std::vector<Eigen::MatrixXd>& T = body.modes.geometric_stiffness->modal_acceleration;
@@ -38,7 +39,7 @@ bool moves(const fe_modal::Interface& interface) {
   return !(interface.translation.isZero(0) && interface.rotation.isZero(0));
 }
 
-/// Symmetric matrices of m modes, as many as there should be.
+/// Returns whether there are `count` finite symmetric matrices of m modes.
 bool sound(const std::vector<Eigen::MatrixXd>& matrices, std::size_t count, Index m) {
   const auto is_sound = [m](const Eigen::MatrixXd& matrix) {
     return matrix.rows() == m && matrix.cols() == m && matrix.allFinite() &&

@@ -9,7 +9,7 @@ namespace {
 
 using Table = std::array<std::array<double, kChebyshevTerms>, kChebyshevTerms>;
 
-/// T_k at node j: cos(k pi (j + 1/2) / n).
+/// Table of T_k at node j: cos(k pi (j + 1/2) / n).
 const Table& cosines() {
   static const Table table = [] {
     Table made{};
@@ -62,7 +62,7 @@ ChebyshevSeries integral(const ChebyshevSeries& of, double length, double start)
   return result;
 }
 
-/// Clenshaw's sum.
+/// Sum by Clenshaw's recurrence.
 double sum_of(const ChebyshevSeries& series, double x) {
   double one = 0;
   double two = 0;

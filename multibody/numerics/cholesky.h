@@ -7,10 +7,10 @@
 
 namespace flexneck::multibody {
 
-/// Replaces the lower triangle of a symmetric positive definite matrix, of fixed or free size, by
-/// its Cholesky factor L, with 1 / L_ii on the diagonal. For the 6 to 40 rows of a body plain loops
-/// along columns beat a blocked library. A matrix that is not positive definite leaves NaN behind:
-/// the caller sees it in the result.
+/// Replaces the lower triangle of a symmetric positive definite matrix, of fixed or dynamic size,
+/// by its Cholesky factor L, with 1 / L_ii on the diagonal. For the 6 to 40 rows of a body plain
+/// loops along columns are faster than a blocked library. A matrix that is not positive definite
+/// gives NaN, which the caller sees in the result.
 template <typename Matrix>
 void factorise_cholesky(Matrix& matrix) {
   const Eigen::Index n = matrix.rows();

@@ -8,12 +8,12 @@
 
 namespace flexneck::multibody {
 
-/// Size of a step's error in units of its tolerance, and which component is the worst.
+/// Size of a step's error in units of its tolerance, and its worst component.
 struct ErrorEstimate {
-  double value = 0;  ///< the step is good below 1; NaN if anything is not a number
+  double value = 0;  ///< the step is accepted below 1; NaN if any component is NaN
   std::size_t component = 0;
 
-  /// Keeps the larger one. NaN wins and stays.
+  /// Keeps the larger ratio. NaN wins and stays.
   void consider(std::size_t of_component, double ratio) {
     if (std::isnan(value) || ratio <= value) return;
     value = ratio;
@@ -21,7 +21,7 @@ struct ErrorEstimate {
   }
 };
 
-/// An error counts against "absolute + relative * reference".
+/// Tolerance of an error: "absolute + relative * reference".
 struct Tolerance {
   double relative;
   double absolute;
@@ -31,8 +31,8 @@ struct Tolerance {
   }
 };
 
-/// Amplitude of modes with the given stiffness, omega^2, as displacement and as velocity: taken
-/// over a and a' / omega of each, it does not vanish where a vibration passes through zero.
+/// Amplitude of modes with the given stiffness, omega^2, as displacement and as velocity: computed
+/// from a and a' / omega of each, it does not vanish where a vibration passes through zero.
 struct ModalAmplitude {
   template <typename Modal>
   ModalAmplitude(const Eigen::VectorXd& stiffness, const Modal& a, const Modal& a_rate) {

@@ -14,17 +14,19 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Matrix = Eigen::SparseMatrix<double>;
 
-/// Columns in the order given; those that depend on the ones before are moved to the end.
+/// QR factors with the columns in the order given; those that depend on the ones before are moved
+/// to the end.
 using Factors = Eigen::SparseQR<Matrix, Eigen::NaturalOrdering<int>>;
 
-/// New places of rows.
+/// Permutation of rows.
 struct RowOrder {
-  std::vector<int> place;  ///< -1: the row is left away
+  std::vector<int> place;  ///< -1: the row is left out
   int count = 0;
 };
 
-/// Each chosen column's pivot is in a row that it touches, so that the factors are as sparse as the
-/// columns are. Rows that none touches, which the factorisation does not know, are left away.
+/// Row order in which each chosen column's pivot is in a row where it has an entry, so that the
+/// factors are as sparse as the columns. Rows without entries in any of them, which the
+/// factorisation does not support, are left out.
 RowOrder pivot_order(const Matrix& matrix, const std::vector<Index>& chosen) {
   RowOrder order{std::vector<int>(static_cast<std::size_t>(matrix.rows()), -1)};
   for (const bool is_pivot : {true, false})
@@ -38,7 +40,7 @@ RowOrder pivot_order(const Matrix& matrix, const std::vector<Index>& chosen) {
   return order;
 }
 
-/// Chosen columns, each divided by its length.
+/// The chosen columns, each divided by its length.
 Matrix scaled_columns(const Matrix& from, const std::vector<Index>& chosen, const RowOrder& order,
                       const VectorXd& lengths) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -54,7 +56,7 @@ Matrix scaled_columns(const Matrix& from, const std::vector<Index>& chosen, cons
   return to;
 }
 
-/// One of a column of zeros.
+/// Norms of the columns; one for a column of zeros.
 VectorXd column_lengths(const Matrix& matrix) {
   VectorXd lengths(matrix.cols());
   for (Index c = 0; c < matrix.cols(); ++c) {
@@ -73,7 +75,7 @@ VectorXd independent_shares(const Matrix& rows_transposed) {
   const Matrix scaled = scaled_columns(rows_transposed, all, pivot_order(rows_transposed, all),
                                        column_lengths(rows_transposed));
   if (scaled.rows() == 0) return shares;
-  // The caller sees what is not a number in its result.
+  // The caller sees NaN in its result.
   if (!scaled.coeffs().allFinite()) return VectorXd::Ones(shares.size());
   Factors factors;
   factors.setPivotThreshold(kDependent);

@@ -9,11 +9,11 @@
 
 namespace flexneck::multibody {
 
-/// LU factors of a sparse matrix whose entries keep their places: dense ones of a small matrix, of
-/// which nothing is allocated after construction, sparse ones of a larger one.
+/// LU factors of a sparse matrix with a fixed pattern: dense factors of a small matrix, which
+/// allocate nothing after construction, sparse factors of a larger one.
 class LuFactors {
  public:
-  /// From as many unknowns on sparse factors are faster, those of a chain of bodies
+  /// Number of unknowns from which sparse factors are faster, for a chain of bodies
   /// (tests/benchmarks/README.md).
   static constexpr Eigen::Index kSparse = 100;
 
@@ -31,7 +31,7 @@ class LuFactors {
   struct Sparse;
 
   SmallLu dense_;
-  std::unique_ptr<Sparse> sparse_;  ///< in place of `dense_`
+  std::unique_ptr<Sparse> sparse_;  ///< used instead of `dense_`
 };
 
 }  // namespace flexneck::multibody

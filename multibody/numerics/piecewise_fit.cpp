@@ -12,29 +12,29 @@
 namespace flexneck::multibody {
 namespace {
 
-/// The share of the function's largest value that the last coefficients of a piece may reach, and
-/// how many times that and rounding a sample may differ.
+/// Fraction of the function's largest value that the last coefficients of a piece may reach, and
+/// the multiple of that and of rounding by which a sample may deviate.
 constexpr double kResolution = 1e-13;
 constexpr double kSampleMargin = 10;
-/// Roundings of the time that a sample may be off by: a piece changes by its range, at some slope
-/// of a few times range by length.
+/// Number of roundings of the time by which a sample may deviate: a piece changes by its range,
+/// with slopes of up to a few times range over length.
 constexpr double kRoundings = 8;
 /// Limits of a fit: a piece takes 0.5 kB.
 constexpr double kMaxSamples = 1e8;
 constexpr std::size_t kMaxPieces = 1'000'000;
 constexpr std::size_t kMaxBreaks = 100'000;
-/// As many breaks within the resolution are no kinks of their own.
+/// Number of breaks within the resolution that are not separate kinks.
 constexpr std::size_t kCluster = 20;
 constexpr double kMinSamples = 64;
-/// Rounding of a series grows in its derivatives by about the square of the number of terms and by
-/// two over the length: here with all terms, and length one.
+/// Growth of the rounding of a series in its derivatives, by about the square of the number of
+/// terms and by two over the length: here with all terms, and length one.
 constexpr double kFirstGrowth = 1e3;
 constexpr double kSecondGrowth = 1e5;
-/// A function has a pole where a coefficient exceeds the largest sample so many times. The
-/// coefficients of a jump are less.
+/// Ratio of a coefficient to the largest sample above which the function has a pole. The
+/// coefficients of a jump are smaller.
 constexpr double kUnbounded = 100;
-/// A piece that is not resolved, where others of so many times its length are on both sides, holds
-/// a single kink or jump.
+/// Ratio of lengths: an unresolved piece between resolved pieces of so many times its length
+/// contains a single kink or jump.
 constexpr double kIsolation = 256;
 
 double at(const PiecewiseFit::Piece& piece, const ChebyshevSeries& series, double time_s) {
@@ -88,8 +88,8 @@ double PiecewiseFit::value(double time_s) const {
   return value;
 }
 
-/// Two samples and more in each feature of the resolution, one of them not at its foot: they say
-/// how large the function is.
+/// Samples the function, at least twice in each feature of the resolution and once away from its
+/// foot, to determine how large it is.
 PiecewiseFit::Grid PiecewiseFit::sampled(double begin_s, double end_s) {
   const double length_s = end_s - begin_s;
   const double count = std::max(kMinSamples, std::ceil(2 * length_s / resolution_s_)) + 1;
@@ -108,8 +108,8 @@ PiecewiseFit::Grid PiecewiseFit::sampled(double begin_s, double end_s) {
   return grid;
 }
 
-/// A stretch in which no break is known: from its start whenever one is found, so that the pieces
-/// before it end exactly there.
+/// Covers an interval without known breaks. It starts anew whenever a break is found, so that the
+/// pieces before the break end exactly there.
 void PiecewiseFit::cover_stretch(const Grid& grid, double begin_s, double end_s) {
   std::size_t before = pieces_.size();
   while (const std::optional<double> found = cover(grid, begin_s, begin_s, end_s)) {
@@ -142,7 +142,7 @@ void PiecewiseFit::add(const Piece& piece) {
                   "changes too fast to be followed over the run: a million pieces end");
 }
 
-/// The first break inside, or pieces to the end.
+/// Returns the first break inside, or adds pieces up to the end.
 std::optional<double> PiecewiseFit::cover(const Grid& grid, double stretch_s, double begin_s,
                                           double end_s) {
   const Piece whole = piece(begin_s, end_s);
@@ -169,8 +169,8 @@ std::optional<double> PiecewiseFit::cover(const Grid& grid, double stretch_s, do
   return cover(grid, stretch_s, middle, end_s);
 }
 
-/// Where the function leaves what it was on the left, if it is smooth on both sides of a short
-/// interval: to rounding, also where only a higher derivative jumps.
+/// The time, to rounding, at which the function leaves its continuation from the left, if it is
+/// smooth on both sides of a short interval; also if only a higher derivative jumps.
 std::optional<double> PiecewiseFit::isolated_break(const Grid& grid, double stretch_s,
                                                    double begin_s, double end_s) const {
   double next_break = grid.end_s;
@@ -194,7 +194,7 @@ std::optional<double> PiecewiseFit::isolated_break(const Grid& grid, double stre
   }
 }
 
-/// Where the function jumps inside a short interval, to rounding; anywhere inside for a kink.
+/// The time of a jump inside a short interval, to rounding; any time inside for a kink.
 double PiecewiseFit::locate(double begin_s, double end_s) const {
   while (true) {
     const double middle = 0.5 * (begin_s + end_s);
@@ -230,7 +230,7 @@ bool PiecewiseFit::follows(const Grid& grid, const Piece& piece) const {
   const auto differs = [&](double time_s, double value) {
     return !(std::abs(value - at(piece, piece.series, time_s)) <= margin);
   };
-  // No node lies as close to the ends as a kink may.
+  // A kink may lie closer to the ends than any node.
   for (const double time_s :
        {std::nextafter(piece.begin_s, piece.end_s), std::nextafter(piece.end_s, piece.begin_s)})
     if (differs(time_s, value(time_s))) return false;
@@ -253,7 +253,7 @@ bool PiecewiseFit::jumps(std::size_t k, int order) const {
   if (order == 0) return jump > 1e-9 * scale_;
   if (order == 2)
     return jump > 1e-6 * curvature_ + kSecondGrowth * rounding / (shortest_s * shortest_s);
-  // A break of the second derivative is found where it has changed the value beyond rounding.
+  // A break of the second derivative is found only once it has changed the value beyond rounding.
   return jump > 1e-6 * steepest_ + kFirstGrowth * rounding / shortest_s +
                     20 * std::sqrt(2 * kSampleMargin * rounding * curvature_);
 }
@@ -264,7 +264,8 @@ bool PiecewiseFit::loses(std::size_t k, int order) const {
   return (order == 1 ? kFirstGrowth : kSecondGrowth) * tolerance(pieces_[k]) > change;
 }
 
-/// Where halving has met a kink or a jump by chance, pieces on both sides are resolved.
+/// Adds breaks at which halving has ended a piece by chance, so that the pieces on both sides are
+/// resolved.
 void PiecewiseFit::find_hidden_breaks() {
   std::sort(breaks_.begin(), breaks_.end());
   for (const Piece& piece : pieces_)

@@ -11,21 +11,22 @@
 
 namespace flexneck::multibody {
 
-/// How closely a function of time is looked at.
+/// Sampling of a function of time.
 struct Sampling {
-  /// No feature of the function that is longer than this is missed.
+  /// Features of the function that are longer than this are not missed.
   double resolution_s = 1e-4;
-  /// Increasing: between two of them the function has 64 samples or more, however close they are.
+  /// Increasing: the function has 64 samples or more between two of them, however close they are.
   std::vector<double> breakpoints_s = {};
 };
 
+/// Refuses a motion.
 /// @throws InputError "the motion <problem> at <time> s".
 [[noreturn]] void refuse_motion(double time_s, const std::string& problem);
 
 /// A function of time over [0, end] as pieces in Chebyshev polynomials. The function is sampled on
 /// a grid, and a piece is halved until its last coefficients vanish and all samples inside it
-/// agree: to 1e-12 of the function's largest value, or to what rounding of the time makes of it.
-/// Pieces end where the function is not smooth.
+/// agree, to 1e-12 of the function's largest value or to the effect of rounding the time. Pieces
+/// end where the function is not smooth.
 class PiecewiseFit {
  public:
   using Function = std::function<double(double)>;
@@ -39,16 +40,16 @@ class PiecewiseFit {
   PiecewiseFit(const Function& f, double end_s, const Sampling& sampling);
 
   const std::vector<Piece>& pieces() const { return pieces_; }
-  /// Where it is not smooth, and the breakpoints given; ascending.
+  /// Times at which it is not smooth, and the given breakpoints; ascending.
   const std::vector<double>& breaks_s() const { return breaks_; }
-  /// Whether, where piece k ends, the derivative of an order jumps beyond what rounding makes.
+  /// Returns whether the derivative of an order jumps by more than rounding at the end of piece k.
   bool jumps(std::size_t k, int order) const;
-  /// Tells whether over piece k, between two breaks close to each other, rounding makes more of the
-  /// derivative of order 1 or 2 than it may change there.
+  /// Returns whether over piece k, between two breaks close to each other, the rounding error of
+  /// the derivative of order 1 or 2 exceeds its possible change there.
   bool loses(std::size_t k, int order) const;
 
  private:
-  /// Samples between breakpoints, evenly apart.
+  /// Equidistant samples between breakpoints.
   struct Grid {
     double begin_s, end_s, step_s;
     std::vector<double> values;
@@ -72,10 +73,10 @@ class PiecewiseFit {
 
   const Function& f_;
   double resolution_s_;
-  double shortest_s_;  ///< a piece of this length that is not resolved holds a kink or a jump
-  double rounding_s_;  ///< of the time
-  double scale_ = 0, curvature_ = 0;  ///< largest value and second derivative, of the samples
-  double steepest_ = 0;               ///< largest first derivative, of the pieces
+  double shortest_s_;  ///< an unresolved piece of this length contains a kink or jump
+  double rounding_s_;  ///< rounding of the time
+  double scale_ = 0, curvature_ = 0;  ///< largest value and second derivative of the samples
+  double steepest_ = 0;               ///< largest first derivative of the pieces
   std::vector<Piece> pieces_;
   std::vector<double> breaks_;
 };

@@ -8,8 +8,8 @@
 
 namespace flexneck::multibody {
 
-/// A coordinate's share that an input holds: its second rate, constant from a time on, m/s^2 or
-/// rad/s^2, with what it has come to by then, m or rad.
+/// Part of a coordinate that an input gives: its second rate, constant from a time on, m/s^2 or
+/// rad/s^2, with its value and rate at that time, m or rad.
 struct HeldInput {
   double since_s = 0;
   double value = 0;
@@ -24,8 +24,8 @@ struct HeldInput {
   double rate_at(double time_s) const { return rate + (time_s - since_s) * second_rate; }
 };
 
-/// A coordinate given over time, in m or rad: the sum of an initial rate, a table of accelerations,
-/// a function of time and what an input holds. Exact, by the integrals of the table and of the
+/// A prescribed coordinate, in m or rad: the sum of an initial rate, a table of accelerations, a
+/// function of time and the part of an input. Exact, by the integrals of the table and of the
 /// function; by default zero.
 class PrescribedCoordinate {
  public:
@@ -44,7 +44,7 @@ class PrescribedCoordinate {
   /// Times at which the second rate or its slope may jump.
   void add_breakpoints(std::vector<double>& times_s) const;
 
-  /// Its fields (geometry/foundation/byte_archive.h).
+  /// Serialises its fields (geometry/foundation/byte_archive.h).
   template <class Archive>
   void archive(Archive& all) {
     all(moves_, value_before_, rate_before_, table_, function_, input_);
@@ -52,7 +52,7 @@ class PrescribedCoordinate {
 
  private:
   bool moves_ = false;
-  double value_before_ = 0, rate_before_ = 0;  ///< what the table alone would have at time zero
+  double value_before_ = 0, rate_before_ = 0;  ///< value and rate of the table alone at time zero
   TimeTable table_;
   SmoothMotion function_;
   HeldInput input_;

@@ -17,20 +17,20 @@ using Eigen::VectorXd;
 
 constexpr int kMaxIterations = 200;
 /// Extent (see RestProblem) of the largest step, and of the one that ends the search: Newton's
-/// convergence is quadratic, so what is left behind the last is rounding.
+/// convergence is quadratic, so the error after the last step is rounding.
 constexpr double kLargestStep = 0.5;
 constexpr double kConverged = 1e-10;
-/// Stiffness below this share of the largest is none: the direction is neutral.
+/// Fraction of the largest stiffness below which a direction is neutral.
 constexpr double kNeutral = 1e-10;
 
 /// Newton's step with the stiffness made positive, so that it always leads downhill.
 VectorXd descent_step(const MatrixXd& stiffness, const VectorXd& force) {
   const SymmetricPairs eigen = symmetric_pairs((stiffness + stiffness.transpose()) / 2);
   const VectorXd magnitude = eigen.values.cwiseAbs();
-  // Not zero even where all stiffness vanishes: the caller shortens a long step.
+  // The floor is not zero even if all stiffness vanishes: the caller shortens a long step.
   const double floor = std::max(kNeutral * magnitude.maxCoeff(), 1e-9);
   VectorXd along = eigen.vectors.transpose() * force;
-  // In a neutral direction only a force that is more than rounding counts.
+  // In a neutral direction only forces above rounding count.
   const double noise = 1e-12 * force.norm();
   for (Index i = 0; i < along.size(); ++i) {
     const bool neutral = magnitude[i] <= floor;
@@ -55,8 +55,8 @@ void find_equilibrium(RestProblem& rest, const std::function<void()>& moved) {
       if (moved) moved();
       return;
     }
-    // Halve the step until it leads down; close to the end the energy no longer tells, the forces
-    // do.
+    // Halve the step until it reduces the energy or, near the end where the energy is only
+    // rounding, the forces.
     for (int halving = 0; halving < 40; ++halving, step /= 2) {
       const double remaining = rest.forces_at(step).norm();
       if (rest.energy() < energy || remaining < force.norm()) break;

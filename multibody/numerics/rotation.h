@@ -17,8 +17,8 @@ struct RotationCoefficients {
   double a, b, c, b_rate, c_rate;
 };
 
-/// Below 0.3 rad by the series, whose first neglected term is below 1e-17: the closed forms cancel
-/// there (at 0.3 rad c' has lost three digits).
+/// Computes the coefficients, below 0.3 rad by the series, whose first neglected term is below
+/// 1e-17: the closed forms suffer from cancellation there (at 0.3 rad c' has lost three digits).
 inline RotationCoefficients rotation_coefficients(double squared_angle) {
   const double u = squared_angle;
   if (u < 0.09) {
@@ -69,7 +69,7 @@ inline Eigen::Vector3d rotation_log(const Eigen::Matrix3d& rotation) {
   return sign * factor * q.vec();
 }
 
-/// J_l(theta): turns the rate of a rotation vector into the angular velocity, both in the axes in
+/// J_l(theta): maps the rate of a rotation vector to the angular velocity, both in the axes in
 /// which the rotation starts: d/dt exp(~theta) = ~(J_l thetadot) exp(~theta).
 inline Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& theta) {
   const RotationCoefficients k = rotation_coefficients(theta.squaredNorm());
@@ -77,9 +77,9 @@ inline Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& theta) {
   return Eigen::Matrix3d::Identity() + k.b * s + k.c * s * s;
 }
 
-/// C_n = (d J_l / dt) thetadot: the part of the angular acceleration that is left when the rotation
-/// vector's second derivative vanishes. By cross products, as equations.md section 4 applied to
-/// thetadot: b ~thetadot thetadot drops out.
+/// C_n = (d J_l / dt) thetadot: the angular acceleration for a zero second derivative of the
+/// rotation vector. Computed by cross products from equations.md section 4 applied to thetadot: b
+/// ~thetadot thetadot drops out.
 inline Eigen::Vector3d left_jacobian_rate_times_rate(const Eigen::Vector3d& theta,
                                                      const Eigen::Vector3d& rate) {
   const RotationCoefficients k = rotation_coefficients(theta.squaredNorm());
@@ -88,7 +88,7 @@ inline Eigen::Vector3d left_jacobian_rate_times_rate(const Eigen::Vector3d& thet
   return along * (k.b_rate * turned + k.c_rate * theta.cross(turned)) + k.c * rate.cross(turned);
 }
 
-/// d/dt of a unit quaternion (w, x, y, z) of a frame that turns with `omega`, in its own axes.
+/// d/dt of a unit quaternion (w, x, y, z) of a frame that rotates with `omega`, in its own axes.
 inline Eigen::Vector4d quaternion_rate(const Eigen::Vector4d& q, const Eigen::Vector3d& omega) {
   Eigen::Vector4d rate;
   rate[0] = -0.5 * q.tail<3>().dot(omega);

@@ -9,17 +9,17 @@
 
 namespace flexneck::multibody {
 
-/// P A = L U with pivots of rows, for some tens of unknowns: Eigen's blocked form, made for large
-/// matrices, takes three times as long there. Allocates nothing after construction.
+/// P A = L U with row pivoting, for some tens of unknowns: Eigen's blocked algorithm, made for
+/// large matrices, takes three times as long there. Allocates nothing after construction.
 class SmallLu {
  public:
   explicit SmallLu(Eigen::Index size)
       : factors_(size, size), pivots_(static_cast<std::size_t>(size)) {}
 
-  /// To be filled, then factorise().
+  /// The matrix to fill before factorise().
   Eigen::MatrixXd& matrix() { return factors_; }
 
-  /// Of a singular matrix solutions are not finite.
+  /// Factorises the matrix; solutions with a singular one are not finite.
   void factorise() {
     const Eigen::Index n = factors_.rows();
     for (Eigen::Index k = 0; k < n; ++k) {
@@ -32,7 +32,7 @@ class SmallLu {
       double* const column = &factors_(0, k);
       for (Eigen::Index i = k + 1; i < n; ++i) column[i] *= scale;
       for (Eigen::Index j = k + 1; j < n; ++j) subtract(&factors_(0, j), column, k + 1, n);
-      column[k] = scale;  // what solutions need of U's diagonal
+      column[k] = scale;  // solve() needs the inverse of U's diagonal
     }
   }
 
@@ -51,7 +51,8 @@ class SmallLu {
   }
 
  private:
-  /// to -= factor from, of the rows from first on; of a column by what it has in the row before.
+  /// Computes to -= factor from, in the rows from `first` on; the factor is the column's entry in
+  /// the row before.
   static void subtract(double* to, const double* from, Eigen::Index first, Eigen::Index end) {
     subtract(to, from, first, end, to[first - 1]);
   }

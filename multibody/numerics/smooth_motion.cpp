@@ -22,14 +22,14 @@ void check_rows(const std::vector<double>& times_s, const std::vector<double>& v
   }
 }
 
-/// Slopes of the spline at the rows: a tridiagonal system, whose first and last rows say that the
-/// third derivative does not jump at the row next to the end.
+/// Slopes of the spline at the rows, from a tridiagonal system; its first and last equations
+/// require that the third derivative does not jump at the row next to the end.
 std::vector<double> spline_slopes(const std::vector<double>& t, const std::vector<double>& y) {
   check_rows(t, y);
   const std::size_t n = t.size();
   const auto h = [&](std::size_t k) { return t[k + 1] - t[k]; };
   const auto rise = [&](std::size_t k) { return (y[k + 1] - y[k]) / h(k); };
-  /// The end's row from the interval at the end and the one before it.
+  /// Right-hand side of an end's equation, from the interval at the end and the one before it.
   const auto end = [&](std::size_t outer, std::size_t inner) {
     const double sum = h(outer) + h(inner);
     return ((h(outer) + 2 * sum) * h(inner) * rise(outer) + h(outer) * h(outer) * rise(inner)) /
@@ -71,7 +71,7 @@ SmoothMotion SmoothMotion::of_displacement(const Function& displacement_m, doubl
     Piece piece{fitted.begin_s, fitted.end_s, fitted.series, {}, {}};
     piece.velocity = derivative(piece.displacement, fitted.length_s());
     piece.acceleration = derivative(piece.velocity, fitted.length_s());
-    // Over so short a piece what was before goes on.
+    // Over so short a piece the value at the end of the piece before is kept.
     if (k > 0 && fit.loses(k, 1)) piece.velocity = {sum_of(motion.pieces_[k - 1].velocity, 1)};
     if (k > 0 && fit.loses(k, 2))
       piece.acceleration = {sum_of(motion.pieces_[k - 1].acceleration, 1)};

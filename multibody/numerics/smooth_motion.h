@@ -9,46 +9,48 @@
 namespace flexneck::multibody {
 
 /// A motion along a line given by a function of time, with its exact derivatives or integrals:
-/// pieces in Chebyshev polynomials (PiecewiseFit). Where the function has a kink or a jump, pieces
-/// end. By default no motion.
+/// pieces in Chebyshev polynomials (PiecewiseFit). Pieces end where the function has a kink or a
+/// jump. By default there is no motion.
 class SmoothMotion {
  public:
   using Function = std::function<double(double)>;
 
   SmoothMotion() = default;
-  /// @param displacement_m  of time in s over [0, end_s], without a jump or a kink
+  /// Motion with a given displacement.
+  /// @param displacement_m  function of time in s over [0, end_s], without a jump or a kink
   /// @throws InputError if it has one, or is not finite.
   static SmoothMotion of_displacement(const Function& displacement_m, double end_s,
                                       const Sampling& sampling = {});
-  /// From displacement and velocity zero at time zero.
-  /// @param acceleration_m_s2  of time in s, piecewise smooth over [0, end_s]
+  /// Motion with a given acceleration, from displacement and velocity zero at time zero.
+  /// @param acceleration_m_s2  function of time in s, piecewise smooth over [0, end_s]
   /// @throws InputError if it is not, or not finite.
   static SmoothMotion of_acceleration(const Function& acceleration_m_s2, double end_s,
                                       const Sampling& sampling = {});
 
-  /// Through the rows of a table: the cubic spline with two continuous derivatives whose third does
-  /// not jump at the second row and the last but one (de Boor, A Practical Guide to Splines, IV),
-  /// exact for a cubic. Its third derivative jumps at the rows between, which are breakpoints.
+  /// Motion through the rows of a table: the cubic spline with two continuous derivatives whose
+  /// third does not jump at the second row and the last but one (de Boor, A Practical Guide to
+  /// Splines, IV), exact for a cubic. Its third derivative jumps at the rows between, which are
+  /// breakpoints.
   /// @param times_s  strictly increasing, four or more
   /// @throws InputError otherwise, or for values that are not finite.
   static SmoothMotion of_displacement_table(const std::vector<double>& times_s,
                                             const std::vector<double>& displacement_m);
 
-  /// That of the default: none.
+  /// Returns whether there is no motion, as by default.
   bool is_none() const { return pieces_.empty(); }
 
-  // Beyond [0, end_s()] the outermost pieces go on.
+  // Outside [0, end_s()] the outermost pieces are extrapolated.
   double displacement_m(double time_s) const;
   double velocity_m_s(double time_s) const;
   double acceleration_m_s2(double time_s) const;
 
-  /// Kinks and jumps, of the second derivative too; ascending.
+  /// Times of kinks and jumps, including those of the second derivative; ascending.
   const std::vector<double>& breakpoints_s() const { return breakpoints_s_; }
-  /// Adds the ends of equal parts of the pieces that reach into an interval, of parts shorter than
-  /// a step may be: steps inside of them meet every feature of the motion.
+  /// Adds the ends of equal parts of the pieces that overlap an interval, if the parts are shorter
+  /// than a step may be: steps within them meet every feature of the motion.
   void add_piece_ends(double begin_s, double end_s, int parts, double max_step_s,
                       std::vector<double>& times_s) const;
-  /// Up to where the motion is given; zero of the default.
+  /// Time up to which the motion is given; zero by default.
   double end_s() const { return pieces_.empty() ? 0 : pieces_.back().end_s; }
 
   using Series = ChebyshevSeries;
@@ -57,7 +59,7 @@ class SmoothMotion {
     Series displacement, velocity, acceleration;
   };
 
-  /// Its fields (geometry/foundation/byte_archive.h).
+  /// Serialises its fields (geometry/foundation/byte_archive.h).
   template <class Archive>
   void archive(Archive& all) {
     all(pieces_, breakpoints_s_);

@@ -20,8 +20,8 @@ void WeightedElimination::factorise(const MatrixXd& Y) {
   factors_.compute(Y(order_, Eigen::all));
 }
 
-/// With Y P = Q R: R^T (Q^T y)_1 = P^T s, the rest of Q^T y is that of Q^T z, and
-/// R P^T lambda = (Q^T z - Q^T y)_1.
+/// With Y P = Q R: R^T (Q^T y)_1 = P^T s, the rest of Q^T y equals that of Q^T z, and R P^T lambda
+/// = (Q^T z - Q^T y)_1.
 void WeightedElimination::solve_once(VectorXd& z, VectorXd& s) const {
   const Index m = s.size();
   const auto R = factors_.matrixQR().topRows(m).triangularView<Eigen::Upper>();
@@ -33,8 +33,8 @@ void WeightedElimination::solve_once(VectorXd& z, VectorXd& s) const {
   z(order_) = factors_.householderQ() * turned;
 }
 
-/// A load on a light body is large beside what the joints leave of its motion: one step of
-/// refinement gets back what that costs.
+/// Solves with one step of iterative refinement: the load on a light body is large compared with
+/// the part of its motion that the joints leave free, which costs digits.
 void WeightedElimination::solve(Eigen::Ref<VectorXd> z, Eigen::Ref<VectorXd> s) const {
   VectorXd y = z;
   VectorXd lambda = s;

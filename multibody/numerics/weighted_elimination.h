@@ -10,8 +10,8 @@ namespace flexneck::multibody {
 
 /// Solves [I Y; Y^T 0] [y; lambda] = [z; s] by the QR factorisation of Y, where the Cholesky
 /// factorisation of Y^T Y would lose too many digits: as many as the logarithm of the ratio of the
-/// masses, of which this loses none that matter. Rows sorted by size and columns pivoted make it
-/// stable row by row (Cox and Higham, SIAM J. Matrix Anal. Appl. 19, 1998). Dense.
+/// masses, while the QR factorisation loses none that matter. Rows sorted by size and column
+/// pivoting make it stable row by row (Cox and Higham, SIAM J. Matrix Anal. Appl. 19, 1998). Dense.
 class WeightedElimination {
  public:
   /// @param Y  (n, m) of rank m

@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double kSamplesPerClass = 10;
-/// Design frequency over the class, J211-1 annex C.
+/// Ratio of the design frequency to the class, J211-1 annex C.
 constexpr double kDesign = 2.0775;
 
 /// y_k = a0 x_k + a1 x_k-1 + a2 x_k-2 + b1 y_k-1 + b2 y_k-2.
@@ -30,7 +30,8 @@ Recursion butterworth(double design_Hz, double interval_s) {
   return {a0, 2 * a0, a0, -2 * (w * w - 1) * scale, (-1 + std::numbers::sqrt2 * w - w * w) * scale};
 }
 
-/// In place, from the state in which the first sample has always been.
+/// Filters in place; the initial state assumes that the signal always had the value of the first
+/// sample.
 void run(const Recursion& recursion, VectorXd& x) {
   double x1 = x[0];
   double x2 = x[0];

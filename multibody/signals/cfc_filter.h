@@ -8,8 +8,8 @@ namespace flexneck::multibody {
 /// Channel frequency classes of SAE J211-1 and ISO 6487.
 enum class ChannelClass { cfc60 = 60, cfc180 = 180, cfc600 = 600, cfc1000 = 1000 };
 
-/// The digital filter of SAE J211-1 annex C: a Butterworth filter of two poles run forwards and
-/// then backwards, so that it has four poles and no phase. The gain at a frequency f is
+/// The digital filter of SAE J211-1 annex C: a two-pole Butterworth filter run forwards and then
+/// backwards, so that it has four poles and no phase shift. The gain at a frequency f is
 ///   1 / (1 + (tan(pi f T) / tan(pi 2.0775 CFC T))^4),   T the interval between samples:
 /// one half at 2.0775 CFC. Beyond its ends the signal is continued by point reflection over ten
 /// times the filter's time constant, at most over its own length.

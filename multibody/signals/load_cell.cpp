@@ -4,7 +4,7 @@
 namespace flexneck::multibody {
 
 LoadCellChannels sae_j211(const JointHistory& joint) {
-  // Half a turn about x takes our axes into those of SAE.
+  // A rotation by half a turn about x maps the model's axes to those of SAE.
   const Eigen::Vector3d to_sae(1, -1, -1);
   LoadCellChannels channels(6, joint.force_N.cols());
   channels.topRows<3>() = to_sae.asDiagonal() * joint.force_N;

@@ -36,7 +36,8 @@ Peak parabola_vertex(const VectorXd& time_s, const VectorXd& signal, Index k) {
   return {time_s[k] + shift, signal[k] + slope * shift / 2};
 }
 
-/// Of the samples first … last of one half wave; empty if the record cuts it before it turns.
+/// Peak of the samples first … last of one half wave; empty if the record ends before the signal
+/// turns.
 std::optional<Peak> half_wave_peak(const VectorXd& time_s, const VectorXd& deviation, Index first,
                                    Index last) {
   Index k = 0;

@@ -10,7 +10,7 @@
 
 namespace flexneck::multibody {
 
-/// One of many runs.
+/// One run of a batch.
 struct BatchRun {
   const Model* model;  ///< not null; must outlive the batch; runs may share it
   SolverOptions solver = {};
@@ -18,15 +18,15 @@ struct BatchRun {
   bool from_equilibrium = false;  ///< see simulate_from_equilibrium()
 };
 
-/// What a run of a batch leaves.
+/// Result of a run of a batch.
 struct BatchResult {
   History history;    ///< empty if the run could not start
-  std::string error;  ///< why it failed or ended early; empty as a rule
+  std::string error;  ///< reason why it failed or ended early; normally empty
 };
 
-/// Runs many models on several threads, each run on one. Results are in the order of the runs and
-/// the same to the last bit as if they were run one by one. A run that fails stops no other.
-/// @param threads  at least 1; more than there are runs or processors help nothing
+/// Runs many models on several threads, each run on one thread. Results are in the order of the
+/// runs and identical to the last bit to those of single runs. A run that fails stops no other.
+/// @param threads  at least 1; more than there are runs or processors are of no use
 /// @throws InputError if `threads` is zero.
 std::vector<BatchResult> simulate_batch(const std::vector<BatchRun>& runs, unsigned threads);
 

@@ -27,7 +27,8 @@ void check_outputs(const OutputOptions& output) {
     throw InputError("the output interval gives over 1e8 output times; make it longer");
 }
 
-/// A history as a whole, and what is derived from it. Few outputs always fit.
+/// Checks that a whole history, with the data derived from it, fits into memory. Few outputs always
+/// fit.
 void check_memory(const Model& model, const OutputOptions& output) {
   constexpr Eigen::Index kFew = 100'000;
   constexpr double kCopies = 2.5;

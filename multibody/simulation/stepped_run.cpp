@@ -12,14 +12,14 @@
 namespace flexneck::multibody {
 namespace {
 
-/// Calls visit(body, prescribed body) for each.
+/// Calls visit(body, prescribed body) for each prescribed body.
 template <class AnyModel, class Visit>
 void each_prescribed(AnyModel& model, const Visit& visit) {
   for (auto& body : model.bodies)
     if (auto* const prescribed = std::get_if<PrescribedBody>(&body.kind)) visit(body, *prescribed);
 }
 
-/// Calls visit(joint, motor) for each.
+/// Calls visit(joint, motor) for each motor.
 template <class AnyModel, class Visit>
 void each_motor(AnyModel& model, const Visit& visit) {
   for (auto& joint : model.joints)
@@ -37,7 +37,7 @@ void each_load(AnyModel& model, const Visit& visit) {
     visit("line_force." + force.name, "N", force.input_N);
 }
 
-/// What an input has come to at a time, from which it has another value.
+/// The integrated input at a time from which its second rate has another value.
 HeldInput held(const HeldInput& before, double time_s, double second_rate) {
   return {time_s, before.value_at(time_s), before.rate_at(time_s), second_rate};
 }
@@ -165,7 +165,7 @@ void SteppedRun::advance(double end_s, const GoesOn& goes_on) {
     else
       integrate(end_s, goes_on);
   } catch (...) {
-    is_changed_ = true;  // the equations have counted turns that are not of the state
+    is_changed_ = true;  // the equations have counted turns that the state does not have
     throw;
   }
 }
@@ -239,7 +239,7 @@ History SteppedRun::recorded() {
   equations_->record(state_.time_s, y, recorder, 0);
   recorder.look(0);
   History history = recorder.take();
-  // Nothing is lost: the work is what the energies have gained.
+  // Nothing is dissipated: the work is the gain of the energies.
   if (kind_ != Kind::quasi_static) {
     EnergyGuard guard(*model_, {solver_.relative_tolerance, solver_.absolute_tolerance});
     guard.take_up(state_.books);

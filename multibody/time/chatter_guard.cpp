@@ -9,12 +9,12 @@
 namespace flexneck::multibody {
 namespace {
 
-/// Steps that are counted together, and how many of them a force must turn over in to be looked at:
-/// where steps get on, they pass a jump in one of ten or more.
+/// Number of steps that are counted together, and how many of them must reverse a force for it to
+/// be examined: in a run that advances, one in ten or more steps passes a jump.
 constexpr int kSteps = 200;
 constexpr int kTurnOvers = 100;
-/// A load turns over if it changes by this share of its size, and it jumps if it keeps that over an
-/// interval that was halved so often.
+/// A load reverses if it changes by this fraction of its size, and it jumps if that change remains
+/// in an interval after so many halvings.
 constexpr double kShare = 0.5;
 constexpr int kHalvings = 30;
 
@@ -70,7 +70,7 @@ void ChatterGuard::check(const TimeIntegrator& integrator) {
   last_time_s_ = integrator.time_s();
 }
 
-/// Halves the last step towards where the load changes most.
+/// Halves the last step towards the largest change of the load.
 bool ChatterGuard::jumps(const TimeIntegrator& integrator, std::size_t force) {
   const double begin_s = last_time_s_;
   const double length_s = integrator.time_s() - begin_s;

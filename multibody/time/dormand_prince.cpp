@@ -11,7 +11,7 @@ namespace {
 using Row = std::array<double, 6>;
 
 constexpr std::array<double, 6> kTimes = {0, 1. / 5, 3. / 10, 4. / 5, 8. / 9, 1};
-/// Row i makes stage i + 1; the last is the step itself (order 5).
+/// Weights of the stages: row i gives stage i + 1; the last is the step itself (order 5).
 constexpr std::array<Row, 6> kStageWeights = {
     {{1. / 5},
      {3. / 40, 9. / 40},
@@ -19,7 +19,7 @@ constexpr std::array<Row, 6> kStageWeights = {
      {19372. / 6561, -25360. / 2187, 64448. / 6561, -212. / 729},
      {9017. / 3168, -355. / 33, 46732. / 5247, 49. / 176, -5103. / 18656},
      {35. / 384, 0, 500. / 1113, 125. / 192, -2187. / 6784, 11. / 84}}};
-/// Order 5 minus order 4.
+/// Weights of the error: those of order 5 minus those of order 4.
 constexpr std::array<double, 7> kErrorWeights = {
     71. / 57600, 0, -71. / 16695, 71. / 1920, -17253. / 339200, 22. / 525, -1. / 40};
 constexpr std::array<double, 7> kDenseWeights = {
@@ -81,7 +81,7 @@ void DormandPrince::attempt(double length_s) {
     if (kErrorWeights[k] != 0) error_ += length_s * kErrorWeights[k] * rates_[k];
 }
 
-/// Hairer et al. II.6: CONTD5.
+/// Dense output, Hairer et al. II.6: CONTD5.
 void DormandPrince::make_dense(double length_s) {
   dense_[0] = y_;
   dense_[1] = y_next_ - y_;
@@ -121,7 +121,7 @@ double DormandPrince::share_to_event(double length_s) {
   };
   const double share = events_->first_event(std::cref(evaluate));
   event_ = events_->event();
-  // The loads stay those of the step's end.
+  // Evaluate the loads at the step's end again, as they were before the search.
   if (share == 1 && events_->evaluations() > 0)
     problem_.derivative(time_s_ + length_s, y_next_, rates_[1]);
   return share;
@@ -134,8 +134,8 @@ void DormandPrince::fixed_step(double length_s) {
 }
 
 double DormandPrince::choose_first_step() const {
-  // The step over which the present rate changes the state by a hundredth of what the fifth root of
-  // the tolerance allows: cautious, since the control grows it tenfold a step.
+  // h = 1e-2 r^(-1/5), with r the present rate in units of the tolerance: cautious, since the
+  // control can increase it tenfold per step.
   const double rate = problem_.measure(y_, y_, rates_[0]).value;
   const double length = rate > 0 ? 1e-2 * std::pow(rate, -0.2) : limits_.largest_s;
   return std::clamp(length, limits_.smallest_s, limits_.largest_s);
@@ -183,12 +183,12 @@ void DormandPrince::step(double limit_s) {
       reason_ = StepReason::event;
       truncated = false;
       error = tried(length);
-      share_seen(length, LoadWatch::Method::six_stages);  // for the motion at its end
+      share_seen(length, LoadWatch::Method::six_stages);  // this records the motion at its end
     }
     if (error.value <= 1) {
       double next = adapted(length, error.value);
       if (rejected_before) next = std::min(next, length);
-      // A step cut short by the limit or an event says nothing against the longer one.
+      // A step shortened by the limit or an event is no reason to reduce the proposed length.
       proposed_s_ = truncated || share < 1 ? std::max(next, proposed_s_) : next;
       last_error_ = std::max(error.value, 1e-4);
       accept(length);

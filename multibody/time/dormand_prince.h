@@ -14,19 +14,21 @@
 
 namespace flexneck::multibody {
 
-/// What DormandPrince integrates. Vectors keep their size; nothing here should allocate.
+/// Initial value problem for DormandPrince. Vectors keep their size; the functions should not
+/// allocate.
 struct InitialValueProblem {
   using Vector = Eigen::VectorXd;
 
   std::function<void(double time_s, const Vector& y, Vector& rate)> derivative;
-  /// Takes the end of a step onto the invariants, by less than the step's error, and gives the rate
-  /// there. The rate serves the error estimate and the next step.
+  /// Projects the end of a step onto the invariants, by less than the step's error, and returns the
+  /// rate there. The rate is used for the error estimate and the next step.
   std::function<void(double time_s, Vector& y, Vector& rate)> finish_step;
   /// @param error  estimated error of y_end, in the units of y
   std::function<ErrorEstimate(const Vector& y_begin, const Vector& y_end, const Vector& error)>
       measure;
   std::function<std::string(std::size_t component)> name_of_component;
-  /// The loads, as derivative() evaluated them last: steps end at their kinks. None: it is smooth.
+  /// The loads, as derivative() evaluated them last: steps end at their kinks. Null if all are
+  /// smooth.
   const ForceSet* forces = nullptr;
 };
 
@@ -35,7 +37,7 @@ struct InitialValueProblem {
 /// Ordinary Differential Equations I, II.4 to II.6).
 class DormandPrince final : public TimeIntegrator {
  public:
-  /// @param y  at `time_s`
+  /// @param y  state at `time_s`
   DormandPrince(InitialValueProblem problem, StepLimits limits, double time_s, const Vector& y);
 
   void restart() override;
@@ -45,7 +47,7 @@ class DormandPrince final : public TimeIntegrator {
     last_error_ = pace.error;
   }
   void step(double limit_s) override;
-  /// A step of the given length, whatever its error.
+  /// Takes a step of the given length, whatever its error.
   void fixed_step(double length_s);
   void interpolate(double time_s, Vector& y) const override;
   std::string name_of(std::size_t component) const override {
@@ -64,7 +66,7 @@ class DormandPrince final : public TimeIntegrator {
   void accept(double length_s);
   double choose_first_step() const;
   void begin_motion();
-  /// The share of the step tried at whose end the first kink of a load is, or 1 if none is before
+  /// The fraction of the tried step at which the first kink of a load lies; 1 if none lies before
   /// the step's end.
   double share_to_event(double length_s);
   void interpolate_at(double s, Vector& y) const;
@@ -76,7 +78,7 @@ class DormandPrince final : public TimeIntegrator {
   std::array<Vector, kStages> rates_;
   std::array<Vector, 5> dense_;
   std::optional<EventSearch> events_;
-  double proposed_s_ = 0;  ///< zero: to be chosen
+  double proposed_s_ = 0;  ///< zero: not yet chosen
   double last_error_ = 1e-4;
   bool fresh_ = false;  ///< rates_[0] belongs to the present state
 };

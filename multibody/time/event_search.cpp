@@ -7,18 +7,18 @@
 namespace flexneck::multibody {
 namespace {
 
-/// The share of a step where an event counts as one at its beginning: what the last step ended at.
+/// Fraction of the step up to which an event counts as the one at which the last step ended.
 constexpr double kAtBeginning = 1e-6;
-/// Beyond its chord, a coordinate swings no further than this times the parabola through a point
-/// says: twice that would do for the cubics that pass through three.
+/// Bound of a coordinate's deviation from its chord, as a multiple of the parabola through a point:
+/// a factor of two would suffice for the cubics through three points.
 constexpr double kSwing = 3;
-/// Beyond a kink by less than this, in m, rad or per s, or of the coordinate, is rounding.
+/// Distance beyond a kink that is only rounding, in m, rad or per s, or relative to the coordinate.
 constexpr double kRounding = 1e-12;
-/// Evaluations that one search may take. A graze to rounding takes a hundred; more is noise at a
-/// kink.
+/// Largest number of evaluations of one search. A grazing kink takes a hundred to rounding; more
+/// are due to noise at a kink.
 constexpr int kMostEvaluations = 400;
 
-constexpr double kNone = 2;  ///< beyond all shares
+constexpr double kNone = 2;  ///< larger than all fractions
 
 }  // namespace
 
@@ -55,7 +55,7 @@ void EventSearch::bound_by_points() {
   std::fill(swings.begin(), swings.end(), 0);
   for (std::size_t p = 0; p < seen_; ++p) {
     const double s = points_[p].share;
-    // The parabola 4 D s (1 - s) over the chord.
+    // Parabola 4 D s (1 - s) above the chord.
     const double factor = kSwing / (4 * std::abs(s * (1 - s)));
     for (std::size_t k = 0; k < swings.size(); ++k) {
       const double chord = (1 - s) * begin_.kinks[k].at + s * end_.kinks[k].at;
@@ -92,7 +92,7 @@ double EventSearch::first_departure(const Span& span, int level, const Evaluate&
   const auto at = static_cast<std::size_t>(level);
   Sample& here = middles_[at];
   here.take(forces_);
-  // A half swings by a quarter of the parabola's, and of what is left of higher orders.
+  // A half deviates by a quarter of the parabola, and by an eighth of the rest for higher orders.
   std::vector<double>& swings = swings_[at + 1];
   for (std::size_t k = 0; k < swings.size(); ++k) {
     const double chord = (span.at_begin.kinks[k].at + span.at_end.kinks[k].at) / 2;
@@ -115,7 +115,7 @@ double EventSearch::first_event(const Evaluate& evaluate) {
   bound_by_points();
   double found = first_departure({0, begin_, 1, end_}, 0, evaluate);
   if (found <= kAtBeginning) {
-    // The last step ended at this kink, so that this step is on the piece behind it.
+    // The last step ended at this kink, so this step is on the piece behind it.
     evaluate(kAtBeginning);
     ++evaluations_;
     begin_.take(forces_);

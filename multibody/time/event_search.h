@@ -10,37 +10,37 @@
 
 namespace flexneck::multibody {
 
-/// Looks for the first kink of a load inside of a step, also where a piece of a law is entered and
-/// left again within it. The coordinates of the laws at a few points of the motion bound how far
-/// they may swing beyond the ends of the step; only where that reaches a kink, the step's dense
-/// output is evaluated, at halves of halves. Allocates on construction alone.
+/// Searches for the first kink of a load inside a step, also if a piece of a law is entered and
+/// left again within it. The coordinates of the laws at a few points of the motion bound their
+/// deviation from the chord between the step's ends; only if that bound reaches a kink, the step's
+/// dense output is evaluated, by repeated halving. Allocates on construction alone.
 class EventSearch {
  public:
-  /// Evaluates the loads at a share of the step.
+  /// Evaluates the loads at a fraction of the step.
   using Evaluate = std::function<void(double share)>;
 
-  /// @param forces  which all calls refer to as they were evaluated last; must outlive this
+  /// @param forces  all calls use its last evaluation; must outlive this
   explicit EventSearch(const ForceSet& forces);
 
   bool is_idle() const { return forces_.pieces().empty(); }
-  /// At the beginning of a step, behind a jump.
+  /// Starts at the beginning of a step after a jump.
   void start();
-  /// The next step is tried, from where start() or the last accept() was.
+  /// Begins another try of the step from the last start() or accept().
   void begin_step() { seen_ = 0; }
-  /// At a point inside of the step.
+  /// Records a point inside the step.
   void see(double share) { see(share, forces_.kinks()); }
-  /// The beginning of the step before, if there was one since start().
-  /// @param share  at which it lies: below zero
+  /// Records the beginning of the step before, if there was one since start().
+  /// @param share  its position as a fraction of the step: below zero
   void see_step_before(double share);
   void see_end() { end_.take(forces_); }
-  /// Tells whether the end is on another piece than the beginning.
+  /// Returns whether the end is on another piece than the beginning.
   bool is_left() const { return begin_.pieces != end_.pieces; }
-  /// The share of the step at which the first piece of a law is left; 1 if none is before the end.
-  /// A point must have been seen, or the middle is.
+  /// The fraction of the step at which the first piece of a law is left; 1 if none before the end.
+  /// If no point has been recorded, the middle is evaluated.
   double first_event(const Evaluate& evaluate);
-  /// The piece that is left there, an index among all.
+  /// The piece that is left there, as an index among all.
   std::size_t event() const { return event_; }
-  /// How often first_event() evaluated the loads, last.
+  /// Number of evaluations of the loads in the last first_event().
   int evaluations() const { return evaluations_; }
   void accept();
 
@@ -60,7 +60,7 @@ class EventSearch {
     double share = 0;
     std::vector<KinksAround> kinks;
   };
-  /// From one point of a step to another.
+  /// Interval between two points of a step.
   struct Span {
     double begin;
     const Sample& at_begin;
@@ -78,8 +78,8 @@ class EventSearch {
   bool has_before_ = false;
   std::array<Point, kMaxPoints> points_;
   std::size_t seen_ = 0;
-  std::vector<Sample> middles_;              ///< of the spans at each level
-  std::vector<std::vector<double>> swings_;  ///< there, how far coordinates may leave their chord
+  std::vector<Sample> middles_;              ///< midpoints of the spans at each level
+  std::vector<std::vector<double>> swings_;  ///< bounds of deviations from their chords
   std::size_t event_ = 0;
   int evaluations_ = 0;
 };

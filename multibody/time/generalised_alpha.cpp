@@ -15,23 +15,23 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr int kMaxIterations = 8;
-/// Newton's method stops at this share of the positions' tolerance, and is given up if a correction
-/// is not smaller than this share of the last. Velocities are not asked for besides: over a short
-/// step rounding of the constraints leaves more of them than a tight tolerance allows
-/// (equations.md section 9).
+/// Newton's method stops at this fraction of the positions' tolerance, and is given up if a
+/// correction is not smaller than this fraction of the last. Velocities are not checked: over a
+/// short step the rounding of the constraints exceeds a tight tolerance in them (equations.md
+/// section 9).
 constexpr double kConverged = 1e-3;
 constexpr double kSlow = 0.6;
-/// Cut of a step over which it does not converge.
+/// Factor by which a step is shortened if it does not converge.
 constexpr double kCut = 0.25;
-/// A kink is approached to this share of the step that was to pass it, and then passed by a short
-/// step: the load has changed by nothing there, and the short step's error by the kink is of
-/// second order in its length.
+/// Fraction of the step that would have passed a kink, up to which the kink is approached; a short
+/// step then passes it: the load has hardly changed there, and the short step's error by the kink
+/// is of second order in its length.
 constexpr double kClose = 1e-4;
-/// Of a step: the difference that estimates V'' behind a restart.
+/// Fraction of a step for the finite difference that estimates V'' after a restart.
 constexpr double kDifference = 1e-3;
 
-// Step control. The local error is of order 3. Within the dead band the step stays, and with it the
-// factors of Newton's matrix.
+// Step control. The local error is of order 3. Within the dead band the step is kept, and with it
+// the factors of Newton's matrix.
 constexpr double kSafety = 0.9;
 constexpr double kLargestGrowth = 2;
 constexpr double kLargestCut = 0.2;
@@ -78,8 +78,9 @@ GeneralisedAlpha::GeneralisedAlpha(Equations& equations, double spectral_radius,
       previous_time_s_(time_s),
       events_(equations.forces()) {}
 
-/// Consistent V' and multipliers behind a jump, and V'' by a difference along the motion, without
-/// which a_n would be of first order only. Zero as length: the first of a run.
+/// Computes consistent V' and multipliers after a jump, and V'' by a finite difference along the
+/// motion, without which a_n would be of first order only. A length of zero denotes the start of a
+/// run.
 void GeneralisedAlpha::begin(double length_s) {
   equations_.derivative(time_s_, y_, rate_);
   equations_.finish_step(time_s_, y_, rate_);
@@ -103,7 +104,7 @@ double GeneralisedAlpha::first_step() const {
   return std::clamp(length, limits_.smallest_s, limits_.largest_s);
 }
 
-/// About the end of a step as it is predicted: on the way there the joints may have passed a
+/// Linearises about the predicted end of a step: on the way there the joints may have passed a
 /// singular configuration, on whose other side the rows of the beginning lead away.
 void GeneralisedAlpha::linearise(double length_s) {
   predict(length_s);
@@ -142,7 +143,7 @@ void GeneralisedAlpha::predict(double length_s) {
   next_.lambda += ratio * (now_.lambda - before_.lambda);
 }
 
-/// The end of the step that goes with V' there.
+/// Computes the end of the step for the V' there.
 void GeneralisedAlpha::update_end(double length_s) {
   const double h = length_s;
   next_.a = alpha_.quotient * next_.V_rate +
@@ -180,7 +181,7 @@ bool GeneralisedAlpha::iterate(double length_s) {
       last_estimate_ = size;
       return false;
     }
-    // What is left is a geometric series.
+    // The remaining corrections form a geometric series.
     const double ratio = k == 0 ? kSlow : size.value / last_size;
     const double left = ratio < 1 ? size.value * ratio / (1 - ratio) : size.value;
     if (left <= kConverged) {
@@ -229,7 +230,7 @@ bool GeneralisedAlpha::try_step(double& length_s) {
     length_s = std::min(length_s, 2 * ahead_s);
     return tried(length_s);
   }
-  // So far before it that the next step sees it inside of itself.
+  // Stop so far before the kink that it lies inside the next step.
   length_s = ahead_s - kClose / 2 * approached_from_s_;
   for (double back = kClose;; back = std::min(10 * back, 0.5)) {
     length_s *= 1 - back;
@@ -246,14 +247,14 @@ double GeneralisedAlpha::share_inside(double length_s) {
     equations_.derivative(time_s_ + share * length_s, y_trial_, rate_trial_);
   };
   const double share = events_.first_event(std::cref(evaluate));
-  // The loads stay those of the step's end.
+  // Evaluate the loads at the step's end again, as they were before the search.
   if (share == 1 && events_.evaluations() > 0)
     equations_.derivative(time_s_ + length_s, y_next_, rate_trial_);
   return share;
 }
 
-/// As the step would go without the kink: its end, which obeys the law behind, says nothing of when
-/// that began.
+/// The fraction at which a kink is reached along the predicted step without the kink: the computed
+/// end, which obeys the law behind the kink, does not show when that law began.
 double GeneralisedAlpha::share_on_prediction(double length_s) {
   const auto evaluate = [&](double share) {
     const double h = share * length_s;
@@ -334,17 +335,17 @@ void GeneralisedAlpha::step(double limit_s) {
       double next = length * std::min(factor, kLargestGrowth);
       if (rejected_before) next = std::min(next, length);
       if (factor >= 1 && factor < kDeadBand) next = length;
-      // A step cut short by the limit or an event says nothing against the longer one.
+      // A step shortened by the limit or an event is no reason to reduce the proposed length.
       const bool at_event = reason_ == StepReason::event;
       const bool at_end = reason_ == StepReason::end;
       proposed_s_ = at_event || at_end ? std::max(next, proposed_s_) : next;
       accept(length);
       watch_from_end();
       if (at_end) time_s_ = limit_s;
-      // But one as long as a short contact would find the same accelerations at its ends.
+      // But a step as long as a short contact would have the same accelerations at both ends.
       if (crosses_) proposed_s_ = std::min(proposed_s_, first_step());
       if (crosses_) approached_from_s_ = 0;
-      // Behind a jump a, which trails V', would carry it on from step to step.
+      // After a jump, a, which lags behind V', would propagate it from step to step.
       const bool passed_jump = reason_ == StepReason::load && watch_->is_blind_to(length);
       if (crosses_ || passed_jump) fresh_ = false;
       met_stop_ = crosses_ && ForceSet::is_deflection(event_);
@@ -363,7 +364,7 @@ void GeneralisedAlpha::interpolate(double time_s, Vector& y) const {
                       h > 0 ? (time_s - previous_time_s_) / h : 0, y);
 }
 
-/// Hermite's cubic.
+/// Interpolates by Hermite's cubic.
 void GeneralisedAlpha::interpolate_between(const Step& step, double share, Vector& y) const {
   const double h = step.length_s;
   const double s = share;

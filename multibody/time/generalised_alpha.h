@@ -13,8 +13,8 @@
 namespace flexneck::multibody {
 
 /// Parameters of the generalised-alpha method of order 2 by its spectral radius at infinite
-/// frequency (Chung and Hulbert, J. Appl. Mech. 60, 1993): 1 damps nothing, 0 annihilates in a step
-/// what the step does not resolve.
+/// frequency (Chung and Hulbert, J. Appl. Mech. 60, 1993): 1 damps nothing, 0 annihilates
+/// unresolved vibrations in one step.
 struct AlphaParameters {
   explicit AlphaParameters(double spectral_radius);
 
@@ -31,21 +31,21 @@ struct AlphaParameters {
 ///   V_n+1 = V_n + h ((1 - gamma) a_n + gamma a_n+1)
 ///   (1 - alpha_m) a_n+1 + alpha_m a_n = (1 - alpha_f) V'_n+1 + alpha_f V'_n
 /// with equations of motion and constraints satisfied at the end of the step. Stable for stiff
-/// forces at any step; vibrations that a step does not resolve die out. Newton's matrix is kept
-/// while it serves. The local error of the positions, less what stiff modes resist, sets the step;
-/// inside a step the state is Hermite's cubic, that of the positions in the displacement from its
-/// beginning: a step may turn far. Steps end at kinks of loads. What meets a stop there sets a
-/// stiff mode in motion that does matter: nothing is taken off the error of the step behind.
+/// forces at any step; vibrations that a step does not resolve decay. Newton's matrix is kept while
+/// it converges. The local error of the positions, less its part in stiff modes, determines the
+/// step; inside a step the state is Hermite's cubic, for the positions in the displacement from its
+/// beginning: a step may rotate far. Steps end at kinks of loads. A stop met there excites a stiff
+/// mode that does matter: the error of the step after it is not reduced.
 class GeneralisedAlpha final : public TimeIntegrator {
  public:
   /// @param equations  must outlive this
-  /// @param y          keeps the joints
+  /// @param y          state that satisfies the joints
   GeneralisedAlpha(Equations& equations, double spectral_radius, StepLimits limits, double time_s,
                    const Vector& y);
 
   void restart() override { fresh_ = false; }
   void step(double limit_s) override;
-  /// A step of the given length, whatever its error.
+  /// Takes a step of the given length, whatever its error.
   /// @throws ComputationError if Newton's method does not converge.
   void fixed_step(double length_s);
   void interpolate(double time_s, Vector& y) const override;
@@ -55,36 +55,38 @@ class GeneralisedAlpha final : public TimeIntegrator {
   std::string name_of(std::size_t component) const override {
     return equations_.name_of(component);
   }
-  /// How often the equations were linearised.
+  /// Number of linearisations of the equations.
   int linearisations() const { return linearisations_; }
 
  private:
-  /// V' and multipliers, and the auxiliary accelerations that go with them.
+  /// V' and multipliers, and the corresponding auxiliary accelerations.
   struct Accelerations {
     Vector V_rate, lambda, a;
   };
 
   void begin(double length_s);
   void linearise(double length_s);
-  /// @return whether Newton's method converged.
+  /// @return true if Newton's method converged.
   bool attempt(double length_s);
   bool iterate(double length_s);
   void predict(double length_s);
   void update_end(double length_s);
-  /// Of a displacement q d at the end of the step, against the tolerance.
+  /// Size of a displacement q d at the end of the step, relative to the tolerance.
   ErrorEstimate size_of(const Vector& d, double q);
   ErrorEstimate local_error(double length_s);
-  /// A step with its error. @return whether Newton's method converged
+  /// Tries a step and estimates its error.
+  /// @return true if Newton's method converged
   bool tried(double length_s);
-  /// The same, and if it would pass a kink of a load, up to before it, or past it if that is close.
+  /// As tried(); a step that would pass a kink of a load is shortened to before it, or passes it if
+  /// it is close.
   bool try_step(double& length_s);
-  // The share of the step tried behind which a piece is left: on its dense output where its end is
-  // on the same piece, or else.
+  // The fraction of the tried step at which a piece is left: on its dense output if its end is on
+  // the same piece, otherwise on the prediction.
   double share_inside(double length_s);
   double share_on_prediction(double length_s);
   struct Step {
     const Vector &y_begin, &rate_begin, &y_end, &rate_end;
-    const Vector& displacement;  ///< of the positions over it
+    const Vector& displacement;  ///< displacement of the positions over the step
     double length_s;
   };
   void interpolate_between(const Step& step, double share, Vector& y) const;
@@ -104,15 +106,15 @@ class GeneralisedAlpha final : public TimeIntegrator {
   Vector y_next_, y_before_, y_trial_;
   Vector rate_, rate_next_, rate_before_, rate_trial_;
   double previous_time_s_;
-  double last_length_s_ = 0;  ///< zero behind a restart: nothing to extrapolate
-  double proposed_s_ = 0;     ///< zero: to be chosen
+  double last_length_s_ = 0;  ///< zero after a restart: no extrapolation
+  double proposed_s_ = 0;     ///< zero: not yet chosen
   double factorised_for_s_ = 0;
   EventSearch events_;
   bool fresh_ = false;            ///< `now_` and rate_ belong to the present state
-  double approached_from_s_ = 0;  ///< length of the step that was to pass the kink ahead; or zero
-  bool crosses_ = false;          ///< the step tried passes it
-  bool met_stop_ = false;         ///< the last one did, along a deflection
-  bool linearised_ = false;       ///< ever
+  double approached_from_s_ = 0;  ///< length of the step that would pass the kink ahead
+  bool crosses_ = false;          ///< the step tried passes the kink
+  bool met_stop_ = false;         ///< the last step passed one, along a deflection
+  bool linearised_ = false;       ///< true once linearise() was called
   int linearisations_ = 0;
 };
 

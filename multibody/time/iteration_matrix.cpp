@@ -11,7 +11,8 @@ using Eigen::Index;
 using Eigen::Triplet;
 using Matrix = Eigen::SparseMatrix<double>;
 
-/// Of differences, in m, rad and kg^(1/2) m and their rates: Newton's method needs few digits.
+/// Increment of the finite differences, in m, rad and kg^(1/2) m and their rates: Newton's method
+/// needs few digits.
 constexpr double kDifference = 1e-7;
 
 /// Calls visit(row, column, place among the values) for each entry, column by column.
@@ -68,7 +69,8 @@ void IterationMatrix::prepare_motion() {
   damping_ = stiffness_ = mass_;
 }
 
-/// Each block joins the first group of which no block is coupled with one that it is coupled with.
+/// Forms groups of uncoupled blocks: each block joins the first group none of whose blocks is
+/// coupled with a block coupled with it.
 void IterationMatrix::prepare_groups() {
   std::vector<std::size_t> group_of(blocks_.size());
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
@@ -116,7 +118,7 @@ bool IterationMatrix::leaves_out_only_redundant(Equations& equations, double tim
 
 void IterationMatrix::linearise(Equations& equations, double time_s, const Vector& state,
                                 const Vector& accelerations, const Vector& multipliers) {
-  // Which rows are redundant is known of the last configuration that was factorised.
+  // The redundant rows are those of the last factorised configuration.
   if (nc_ > 0) {
     equations.derivative(time_s, state, rate_);
     equations.given_velocities(given_);

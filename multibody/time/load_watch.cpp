@@ -13,16 +13,18 @@ namespace {
 
 constexpr std::array<double, 6> kStages = {0, 1. / 5, 3. / 10, 4. / 5, 8. / 9, 1};
 constexpr std::array<double, 2> kEnds = {0, 1};
-/// Samples may differ from what the method takes by this share of the largest load in the step.
+/// Fractions of the largest load in the step by which samples may differ from the method's
+/// interpolation.
 constexpr double kOfStages = 1e-3;
 constexpr double kOfEnds = 1e-2;
-/// Loads below this share of the largest so far do not matter, such as the foot of a bell.
+/// Fraction of the largest load so far below which loads do not matter, such as the foot of a bell
+/// curve.
 constexpr double kNegligible = 1e-9;
-/// Features as long as the resolution are met by steps down to this share of it, with so many
-/// samples a step.
+/// Steps down to this fraction of the resolution sample features that are as long as the
+/// resolution, with at least kFewest samples per step.
 constexpr double kShortest = 1. / 256;
 constexpr std::size_t kFewest = 8;
-/// A step is cut where what it missed begins, but not to less than this share; else to a half.
+/// Smallest fraction to which a step is shortened where a missed feature begins; else it is halved.
 constexpr double kLeastShare = 0.25;
 
 /// The polynomial through the values of a function at `nodes`.
@@ -57,7 +59,8 @@ void LoadWatch::take(std::vector<RelativeMotion>& motions) const {
 
 void LoadWatch::begin() { take(begin_); }
 
-/// Hermite's cubic of the place, whose derivative is the velocity.
+/// Motion at a fraction of the step: Hermite's cubic of the position, whose derivative is the
+/// velocity.
 RelativeMotion LoadWatch::Motions::at(double s) const {
   const double r = 1 - s;
   const Eigen::Vector3d rise = end.position_m - begin.position_m;
@@ -76,7 +79,7 @@ bool LoadWatch::is_blind_to(double length_s) const { return length_s < kShortest
 double LoadWatch::share_seen(double begin_s, double length_s, Method method) {
   take(end_);
   if (is_blind_to(length_s)) return 1;
-  // More samples than the resolution asks for: none of its length lies between two.
+  // The samples are closer than the resolution: no feature of that length lies between two.
   const auto count = std::max(kFewest, static_cast<std::size_t>(length_s / resolution_s_) + 1);
   std::size_t missed = count;
   std::size_t k = 0;
@@ -91,7 +94,7 @@ double LoadWatch::share_seen(double begin_s, double length_s, Method method) {
   return before >= kLeastShare ? before : 0.5;
 }
 
-/// The first missed one of samples 1 to count - 1; count if none is.
+/// Index of the first sample, from 1 to count - 1, that the method misses; count if there is none.
 std::size_t LoadWatch::first_missed(const FunctionForce& force, const Motions& motions,
                                     double begin_s, std::size_t count, Method method,
                                     Load& largest) {

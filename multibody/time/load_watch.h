@@ -9,30 +9,31 @@
 
 namespace flexneck::multibody {
 
-/// Looks for what steps would miss of the loads that are functions, which nothing is known of but
-/// their values: along a step, with the motion between its ends, each component is sampled at the
-/// resolution and compared with what the method makes of the values that it takes. So pulses in
-/// time and bumps along the way are not stepped over, shorter steps meet them, and the error of
-/// these is controlled as ever.
+/// Detects features that steps would miss in loads given by functions, of which only the values are
+/// known: along a step, with the motion between its ends, each component is sampled at the
+/// resolution and compared with the method's interpolation of the values that it uses. So pulses in
+/// time and bumps along the path are not stepped over: shorter steps meet them, whose error is
+/// controlled as usual.
 class LoadWatch {
  public:
-  /// How a method interpolates a load between the ends of a step.
+  /// Interpolation of a load between the ends of a step by a method.
   enum class Method {
     six_stages,  ///< a polynomial through the stages of Dormand and Prince, to 1e-3 of the load
     ends         ///< a straight line, to 1e-2
   };
 
-  /// @param forces  must outlive this; at the beginning of a step
+  /// @param forces  evaluated at the beginning of a step; must outlive this
   LoadWatch(const ForceSet& forces, double resolution_s);
 
-  /// The motion of the last evaluation is that at the beginning of the next step.
+  /// Takes the motion of the last evaluation as that at the beginning of the next step.
   void begin();
-  /// The motion of the last evaluation is that at the end of a step.
-  /// @return 1 if the step may be accepted, or the share of its length that may do
+  /// Takes the motion of the last evaluation as that at the end of a step, and checks the step.
+  /// @return 1 if the step may be accepted, or the fraction of its length to try next
   double share_seen(double begin_s, double length_s, Method method);
-  /// Shorter steps are not looked at: what cut one down to this is a jump.
+  /// Returns whether steps of this length are not checked: one that was shortened to it contains a
+  /// jump.
   bool is_blind_to(double length_s) const;
-  /// The step that was looked at last is accepted: the next one begins at its end.
+  /// Accepts the step that was checked last: the next one begins at its end.
   void accept() { begin_.swap(end_); }
 
  private:
@@ -42,7 +43,7 @@ class LoadWatch {
     const RelativeMotion& begin;
     const RelativeMotion& end;
     double length_s;
-    Eigen::Vector3d turn;  ///< from begin to end
+    Eigen::Vector3d turn;  ///< rotation vector from begin to end
     RelativeMotion at(double share) const;
   };
 
@@ -53,7 +54,7 @@ class LoadWatch {
   const ForceSet& forces_;
   double resolution_s_;
   std::vector<RelativeMotion> begin_, end_;
-  std::vector<Load> largest_;  ///< that each force has shown, by component
+  std::vector<Load> largest_;  ///< largest loads of each force so far, by component
   std::vector<Load> samples_;
 };
 

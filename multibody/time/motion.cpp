@@ -23,12 +23,12 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// A piece of a motion is less than a period of it. So many steps meet it, of a method with stages
-/// or of one that sees its ends alone.
+/// Number of steps in a piece of a motion, which is shorter than a period: for a method with
+/// stages, and for one that evaluates only the ends of steps.
 constexpr int kPartsOfStages = 2;
 constexpr int kPartsOfEnds = 8;
 
-/// Counts what set the lengths of steps.
+/// Counts the causes that limited the lengths of steps.
 class LimitCounter {
  public:
   void count(const TimeIntegrator& integrator) {
@@ -71,7 +71,7 @@ class LimitCounter {
   std::map<std::pair<StepReason, std::size_t>, int> steps_;
 };
 
-/// One run: the integrator, and the recorder behind it.
+/// One run: the integrator and its recorder.
 class Run {
  public:
   Run(const Model& model, Equations& equations, const VectorXd& state, const SolverOptions& solver,
@@ -190,7 +190,7 @@ void StepGuards::check_energy(double time_s, const VectorXd& state) {
 
 namespace {
 
-/// Calls visit(motion) for each motion by a function of time.
+/// Calls visit(motion) for each motion given by a function of time.
 template <class Visit>
 void each_function_of_time(const Model& model, const Visit& visit) {
   for (const Body& body : model.bodies)

@@ -14,7 +14,7 @@
 namespace flexneck::multibody {
 namespace {
 
-/// The largest angle by which a prescribed body or a motor turns from one time to another.
+/// The largest angle by which a prescribed body or a motor rotates from one time to another.
 double prescribed_turn_rad(const Model& model, double begin_s, double end_s) {
   double largest = 0;
   for (const Body& body : model.bodies)

@@ -14,13 +14,13 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kSuspect = 2;  ///< times the rate of the step before
+constexpr double kSuspect = 2;  ///< multiple of the rate of the step before
 constexpr int kHalvingsOfStep = 10;
-/// Share of a step's motion in a thousandth of it: of a kink a thousandth, where two equilibria
-/// part, which follows a square root, a thirtieth.
+/// Fraction of a step's motion in a thousandth of the step that is a jump: at a kink it is a
+/// thousandth; where two equilibria separate, along a square root, a thirtieth.
 constexpr double kJump = 0.25;
-/// What moves less, in m or rad, is an error of the search; and what moves less than this share of
-/// the largest is not looked at.
+/// Motion, in m or rad, below which it is an error of the search; and fraction of the largest
+/// motion below which a coordinate is ignored.
 constexpr double kLeastMotion = 1e-8;
 constexpr double kLeastShareOfMotion = 1e-4;
 
@@ -29,7 +29,7 @@ bool counts(const VectorXd& whole, Index k) {
          std::max(kLeastMotion, kLeastShareOfMotion * whole.lpNorm<Eigen::Infinity>());
 }
 
-/// The largest share of a coordinate's motion that a part has.
+/// The largest fraction of a coordinate's motion that a part of the step has.
 double share(const VectorXd& part, const VectorXd& whole) {
   double largest = 0;
   for (Index k = 0; k < whole.size(); ++k)
@@ -63,7 +63,8 @@ std::optional<SnapSearch::Place> SnapSearch::settled(const RunWatch& watch, cons
   return to;
 }
 
-/// @return whether the place of a jump was found, between begin and end
+/// Narrows the interval from begin to end around a jump.
+/// @return true if a jump was found in it
 bool SnapSearch::narrow(const RunWatch& watch, const Vector& whole, Place& begin, Place& end) {
   const Index count = whole.size();
   const auto moved = [&](const Place& from, const Place& to) -> VectorXd {
@@ -96,10 +97,10 @@ void SnapSearch::look(const RunWatch& watch, double begin_s, const Vector& begin
   Place from{begin_s, begin};
   Place to{end_s, end};
   if (narrow(watch, moved, from, to) && jumps_++ == 0) first_ = motion_text(from, to);
-  settled(watch, {end_s, end}, end_s);  // the equations count turns from there on
+  settled(watch, {end_s, end}, end_s);  // the equations continue to count turns from there
 }
 
-/// By the marker that moves most.
+/// Text on the motion of the marker that moves most.
 std::string SnapSearch::motion_text(const Place& begin, const Place& end) {
   const auto markers = [&](const Place& place) {
     OutputOptions one;

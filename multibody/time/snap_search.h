@@ -12,25 +12,26 @@
 
 namespace flexneck::multibody {
 
-/// Finds where a row of static equilibria jumps: where the one that was followed ends, as at a
-/// snap-through, and a step moves by much more than its load's increment explains.
+/// Finds jumps in a sequence of static equilibria: the branch of equilibria that was followed ends,
+/// as at a snap-through, and a step moves by much more than its load increment explains.
 ///
-/// A step is suspected that moves some coordinate by more than twice what the step before did, for
-/// its time, and the first one. It is halved towards where it moves most. It jumps if a thousandth
-/// of it has a quarter of its motion, and if that does not come back with the load: so does the
-/// motion under a load that jumps itself.
+/// A step is suspected if it moves some coordinate by more than twice the motion of the step
+/// before, relative to its duration; the first step is always suspected. It is halved towards the
+/// largest motion. It is a jump if a thousandth of it has a quarter of its motion, and if that
+/// motion is not undone when the load is: otherwise the load itself jumps.
 class SnapSearch {
  public:
   using Vector = Eigen::VectorXd;
 
-  /// @param equations  with prescribed bodies held
+  /// @param equations  with fixed prescribed bodies
   SnapSearch(const Model& model, Equations& equations);
 
+  /// Examines a step.
   /// @param begin,end  equilibria at these times, the second sought from the first
   void look(const RunWatch& watch, double begin_s, const Vector& begin, double end_s,
             const Vector& end);
 
-  /// A sentence on the first jump and how many there are, if there are any.
+  /// A warning on the first jump and the number of jumps; empty if there are none.
   std::vector<std::string> warnings() const;
 
  private:
@@ -46,7 +47,7 @@ class SnapSearch {
 
   const Model& model_;
   Equations& equations_;
-  Vector last_rates_;  ///< of positions, in the step before; none before the second
+  Vector last_rates_;  ///< rates of positions in the step before; empty before the second step
   int jumps_ = 0;
   std::string first_;
 };

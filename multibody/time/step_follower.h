@@ -11,18 +11,18 @@
 
 namespace flexneck::multibody {
 
-/// Follows a run from accepted step to accepted step for all that must see each of them: guards,
-/// and angles that count turns.
+/// Follows a run from accepted step to accepted step for the objects that must see each of them:
+/// guards and angles with counted turns.
 class StepFollower {
  public:
   /// @param equations, watch  must outlive this
   StepFollower(Equations& equations, RunWatch& watch) : equations_(equations), watch_(watch) {}
 
-  /// At the start of a run, or where one that was left is taken up again.
+  /// Starts at the beginning of a run, or where a run is resumed.
   void begin(double time_s, const Eigen::VectorXd& state);
-  /// Follows the integrator behind a step.
-  /// @param record_until  called with times that ascend to the end of the step: what looks at the
-  ///                      watch until then does so in the order of time
+  /// Follows the integrator after a step.
+  /// @param record_until  called with increasing times up to the end of the step, so that records
+  /// that use the watch are made in the order of time
   /// @throws ComputationError of a guard that ends the run.
   void follow(const TimeIntegrator& integrator,
               const std::function<void(double time_s)>& record_until);

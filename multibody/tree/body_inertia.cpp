@@ -25,7 +25,7 @@ Matrix3d unpacked(const Packed& v) {
   return symmetric;
 }
 
-/// What turns packed J into w . J w.
+/// Coefficients that turn packed J into w . J w.
 Vector6d quadratic_form(const Vector3d& w) {
   Vector6d values;
   values << w[0] * w[0], w[1] * w[1], w[2] * w[2], 2 * w[0] * w[1], 2 * w[0] * w[2],
@@ -75,7 +75,7 @@ InertiaTerms::InertiaTerms(const BodyInertia& body)
 
 namespace {
 
-/// What the modes add to the first moment, to the moment of inertia and to their rates.
+/// Contributions of the modes to the first moment, to the moment of inertia and to their rates.
 struct ModalSums {
   Vector3d S;
   Vector6d J;
@@ -84,7 +84,8 @@ struct ModalSums {
   Vector3d angular = Vector3d::Zero();   ///< N a'
 };
 
-/// All that mode l contributes, in one pass over its invariants: small sums stay in registers.
+/// Adds the whole contribution of mode l, in one pass over its invariants: small sums stay in
+/// registers.
 [[gnu::always_inline]] inline void add_mode(const BodyInertia& body, const VectorXd& a,
                                             const VectorXd& a_rate, const Vector3d& w,
                                             const Vector6d& form, Index l, ModalSums& sums,
@@ -112,7 +113,7 @@ struct ModalSums {
   sums.angular += a_rate[l] * N_l;
 }
 
-/// What S2 and N gain with the deformation.
+/// Adds the changes of S2 and N with the deformation.
 void add_slopes_of_inertia(const BodyInertia& body, const VectorXd& a, const VectorXd& a_rate,
                            ModalSums& sums, InertiaTerms& terms) {
   auto S2 = terms.M_ra.topRows<3>();
@@ -183,7 +184,7 @@ double kinetic_energy_J(const BodyInertia& body, const VectorXd& a, const Vector
   const Index m = body.mode_count();
   Vector3d S = body.S1;
   Vector6d J = body.J0;
-  Vector3d momentum = Vector3d::Zero();  // of the deformation alone
+  Vector3d momentum = Vector3d::Zero();  // momentum of the deformation alone
   Vector3d angular = Vector3d::Zero();
   double deformation = 0;
   for (Index l = 0; l < m; ++l) {

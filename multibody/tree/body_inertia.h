@@ -31,14 +31,14 @@ struct BodyInertia {
   Eigen::Matrix3Xd N0;
   Eigen::MatrixXd N;  ///< (3m, m): column j holds N_j1 … N_jm
   Eigen::MatrixXd Maa;
-  InertiaSlopes slopes;  ///< empty without stress stiffening, whose share in E is in E
+  InertiaSlopes slopes;  ///< empty without stress stiffening; their part of E is in E
   ModalSprings springs;
 
   bool stiffens() const { return slopes.S2.size() > 0; }
 };
 
-/// Inertia of a body in its own axes, and what is left of its equations when its accelerations
-/// vanish: M (acc, wdot, addot) + bias = load, acc the acceleration of the origin less gravity.
+/// Inertia of a body in its own axes, and its equations' bias at zero accelerations: M (acc, wdot,
+/// addot) + bias = load, acc the acceleration of the origin less gravity.
 struct InertiaTerms {
   explicit InertiaTerms(const BodyInertia& body);
 
@@ -49,19 +49,19 @@ struct InertiaTerms {
   Eigen::VectorXd bias_a;
 };
 
-/// At modal coordinates a, their rates and the angular velocity w (body axes).
+/// Updates the terms at modal coordinates a, their rates and the angular velocity w (body axes).
 void update(const BodyInertia& body, const Eigen::VectorXd& a, const Eigen::VectorXd& a_rate,
             const Eigen::Vector3d& w, InertiaTerms& terms);
 
-/// What the modes need of a body whose frame moves without turning: loads on the frame lack their
-/// moments.
+/// Updates the terms of the modes for a body whose frame moves without rotation; the moments of
+/// loads on the frame are left out.
 void update_modes(const BodyInertia& body, const Eigen::VectorXd& a, const Eigen::VectorXd& a_rate,
                   InertiaTerms& terms);
 
-/// The same for a rigid body whose M is there already.
+/// Updates the bias of a rigid body whose M is already set.
 void update_rigid_bias(const BodyInertia& body, const Eigen::Vector3d& w, InertiaTerms& terms);
 
-/// With the velocity v of the origin in body axes.
+/// Kinetic energy for the velocity v of the origin in body axes.
 double kinetic_energy_J(const BodyInertia& body, const Eigen::VectorXd& a,
                         const Eigen::VectorXd& a_rate, const Eigen::Vector3d& v,
                         const Eigen::Vector3d& w);

@@ -63,7 +63,7 @@ SquaredResidual::SquaredResidual(const Joint& joint, const MarkerState& i, const
   if (kind.rotation == RotationConstraint::none) return;
   const Vector3d turning = i.angular_velocity_rad_s - j.angular_velocity_rad_s;
   if (kind.rotation == RotationConstraint::all) {
-    // Of an angle t between the orientations the difference is sqrt(8) sin(t / 2).
+    // For an angle t between the orientations the difference is sqrt(8) sin(t / 2).
     position.rotation = 0.5 * (i.rotation - j.rotation).squaredNorm();
     velocity.rotation = turning.squaredNorm();
     return;

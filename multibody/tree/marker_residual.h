@@ -7,8 +7,8 @@
 
 namespace flexneck::multibody::tree {
 
-/// Squares of by how much two markers miss what their joint holds, and of their rates, from their
-/// motion alone: joint coordinates hold the joints by themselves, and this sees that they do.
+/// Squares of the residuals of a joint's constraints, and of their rates, from the motion of its
+/// markers alone: joint coordinates satisfy the joints by construction, and this checks it.
 struct SquaredResidual {
   SquaredResidual(const Joint& joint, const MarkerState& i, const MarkerState& j);
 

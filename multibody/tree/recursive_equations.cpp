@@ -50,8 +50,8 @@ class RecursiveEquations final : public Equations {
     tree::TreeDynamics held(tree_, Drive::held);
     tree::TreeRest rest(held, tree::given_positions(tree_));
     find_equilibrium(rest);
-    // Rates against the prescribed bodies are zero: all moves with them. Those of bodies without a
-    // joint are against the world.
+    // Rates relative to the prescribed bodies are zero: all bodies move with them. Those of bodies
+    // without a joint are relative to the world.
     return relaxed(any_floats ? carried(held, rest.state(), carriers) : rest.state());
   }
 
@@ -97,7 +97,7 @@ class RecursiveEquations final : public Equations {
   void begin_step(const Vector& state, const Vector& rate, double length_s) override {
     dynamics_.begin_step(state, rate, length_s);
   }
-  /// In the form V' - F(Q, V), which has the unit matrix as mass.
+  /// Residual in the form V' - F(Q, V), whose mass matrix is the identity.
   void residual(double time_s, const Vector& state, const Vector& accelerations,
                 const Vector& /*multipliers*/, Vector& residual) override {
     dynamics_.follow_step();
@@ -113,7 +113,7 @@ class RecursiveEquations final : public Equations {
     dynamics_.fill_rate(state, accelerations, rate);
   }
 
-  /// Joint coordinates hold the joints, and count turns.
+  /// Checks deformations; joint coordinates satisfy the joints and count turns.
   void accept(double time_s, const Vector& state, RunWatch& watch) override {
     count_turns(state);
     for (const tree::TreeBody& body : tree_.bodies)
@@ -159,7 +159,7 @@ class RecursiveEquations final : public Equations {
   }
 
  private:
-  /// A state at rest with all bodies at the velocity of what carries them.
+  /// A state at rest with all bodies at the velocity of their carriers.
   Vector carried(tree::TreeDynamics& held, const Vector& state,
                  const std::vector<std::optional<Eigen::Vector3d>>& velocities) const {
     held.update(0, state);
@@ -181,7 +181,7 @@ class RecursiveEquations final : public Equations {
         angles_rad_[k] = tree::joint_angle_rad(tree_, k, state);
   }
 
-  /// The state with the internal variables that force elements have at rest for long.
+  /// The state with the internal variables of force elements after a long time at rest.
   Vector relaxed(Vector state, double time_s = 0) {
     if (tree_.internal_count == 0) return state;
     dynamics_.relax();
@@ -214,8 +214,8 @@ class RecursiveEquations final : public Equations {
   tree::TreeDynamics dynamics_;
   tree::TreeError error_;
   JointGuard guard_;
-  std::vector<MarkerState> markers_;  ///< of the model, at the last output
-  std::vector<double> angles_rad_;    ///< of the joints that have one, as they were counted last
+  std::vector<MarkerState> markers_;  ///< by the model's markers, at the last output
+  std::vector<double> angles_rad_;    ///< angles of the joints that have one, as last counted
   Vector no_multipliers_;
 };
 

@@ -7,11 +7,11 @@
 #include "multibody/tree/body_inertia.h"
 #include "multibody/tree/tree_node.h"
 
-// Accelerations, loads and inertias of six components, linear above angular, moved from point to
-// point and from axes to axes. Inlined by force: they are the recursion's innermost work.
+// Spatial accelerations, loads and inertias, linear above angular, shifted between points and
+// rotated between axes. Forced inline: they are the recursion's innermost work.
 namespace flexneck::multibody::tree {
 
-/// Z^T I Z with Z = [1, -~r; 0, 1]: an inertia that acts at r, seen from the origin.
+/// Z^T I Z with Z = [1, -~r; 0, 1]: an inertia at r, referred to the origin.
 [[gnu::always_inline]] inline Matrix6d shifted(const Matrix6d& inertia, const Eigen::Vector3d& r) {
   const Eigen::Matrix3d cross = skew(r);
   Matrix6d result;
@@ -25,14 +25,14 @@ namespace flexneck::multibody::tree {
   return result;
 }
 
-/// Z^T f: a load that acts at r, seen from the origin.
+/// Z^T f: a load at r, referred to the origin.
 [[gnu::always_inline]] inline Vector6d shifted(const Vector6d& load, const Eigen::Vector3d& r) {
   Vector6d result = load;
   result.tail<3>() += r.cross(load.head<3>());
   return result;
 }
 
-/// Z a: an acceleration of the origin, seen at r.
+/// Z a: an acceleration of the origin, referred to r.
 [[gnu::always_inline]] inline Vector6d carried(const Vector6d& acceleration,
                                                const Eigen::Vector3d& r) {
   Vector6d result = acceleration;
@@ -59,7 +59,7 @@ namespace flexneck::multibody::tree {
   return result;
 }
 
-/// What a node's acceleration has besides [acc + wdot x s + psi a''; wdot + jm a''].
+/// Bias of a node's acceleration: its terms other than [acc + wdot x s + psi a''; wdot + jm a''].
 [[gnu::always_inline]] inline Vector6d node_bias(const NodeMotion& node, const Eigen::Vector3d& w) {
   Vector6d bias;
   bias.head<3>() = w.cross(w.cross(node.s) + 2 * node.s_dot) + node.s_dot_rate;

@@ -19,18 +19,18 @@ bool turns(const PrescribedTurn& turn) {
          !turn.motion.is_none();
 }
 
-/// A body's place in the order of a walk over the joints from the prescribed bodies outwards, then
-/// over what is left from the first body of it.
+/// A body in the order of a traversal of the joints from the prescribed bodies outwards, then of
+/// the remaining bodies, each time from the first of them.
 struct Visit {
   std::size_t body;
-  std::size_t carrier;  ///< among the model's bodies; kNone for the world
+  std::size_t carrier;  ///< index among the model's bodies; kNone for the world
   std::size_t joint;
 };
 
 struct Walk {
   std::vector<Visit> order;
   std::optional<std::size_t> closing_joint;
-  std::optional<std::size_t> unsuited_joint;  ///< by its kind or its motors
+  std::optional<std::size_t> unsuited_joint;  ///< a joint whose kind or motors do not fit a tree
 };
 
 Walk walk(const Model& model) {
@@ -94,7 +94,7 @@ double trace(const Vector6d& packed) { return packed[0] + packed[1] + packed[2];
 
 double joint_angle_rad(const Tree& tree, std::size_t joint,
                        const Eigen::Ref<const Eigen::VectorXd>& state) {
-  // The angle is the last coordinate of all kinds that have one.
+  // The angle is the last coordinate in all kinds that have one.
   const TreeBody& body = tree.bodies[tree.body_of_joint[joint]];
   const double angle = state[body.position + body.joint.position_count() - 1];
   return body.inner_is_i ? angle : -angle;
@@ -136,7 +136,7 @@ Tree::Tree(const Model& of)
                      "formulation does not treat; "
                      "use the descriptor formulation");
   std::vector<Carrier> carriers(model.bodies.size());
-  std::vector<bool> turning;  // of the prescribed bodies
+  std::vector<bool> turning;  // flag of each prescribed body
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const auto* body = std::get_if<PrescribedBody>(&model.bodies[b].kind);
     if (body == nullptr) continue;

@@ -17,32 +17,32 @@ namespace flexneck::multibody::tree {
 
 inline constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-/// What carries a body, a marker or a node: a body of the tree, a prescribed one or the world.
+/// Carrier of a body, a marker or a node: a body of the tree, a prescribed one or the world.
 struct Carrier {
-  std::size_t body = kNone;        ///< in the tree's order, or
-  std::size_t prescribed = kNone;  ///< among the prescribed ones, or neither: the world
+  std::size_t body = kNone;        ///< index in the tree's order, or
+  std::size_t prescribed = kNone;  ///< among the prescribed bodies; the world if neither
 };
 
-/// A body, and the joint through which it hangs on what is before it in the tree.
+/// A body, and the joint that connects it with its carrier in the tree.
 struct TreeBody {
   std::string name;
-  std::size_t index;  ///< among the model's bodies
+  std::size_t index;  ///< index among the model's bodies
   BodyInertia inertia;
   Carrier carrier;
-  std::size_t joint_index = kNone;  ///< among the model's joints; none if it floats
+  std::size_t joint_index = kNone;  ///< index among the model's joints; kNone if the body floats
   bool inner_is_i = true;           ///< the joint's marker i is the carrier's
   TreeJoint joint;
   TreeNode inner;         ///< F, on the carrier
   TreeNode outer;         ///< M, on this body
-  Eigen::Index position;  ///< of the joint's coordinates, then the modes', in the positions
-  Eigen::Index velocity;  ///< of their rates in the velocities
-  /// Rigid, fixed to its carrier and without outer bodies: its articulated inertia is its own, and
-  /// constant.
+  Eigen::Index position;  ///< start of the joint's coordinates, then the modes', in the positions
+  Eigen::Index velocity;  ///< start of their rates in the velocities
+  /// True if it is rigid, fixed to its carrier and without outer bodies: its articulated inertia is
+  /// its own, and constant.
   bool is_rigid_end = false;
-  /// Rigid, without joint and outer bodies: it moves as its loads have it, whatever the others do.
+  /// True if it is rigid, without joint and outer bodies: its motion follows from its loads alone.
   bool is_alone = false;
-  /// Fixed to a prescribed body that never turns: the inertia of its own frame acts on nothing but
-  /// the reaction of that joint.
+  /// True if it is fixed to a prescribed body that never rotates: the inertia of its own frame then
+  /// affects nothing but the reaction of that joint.
   bool rides = false;
 
   bool is_fixed() const { return joint.is_fixed(); }
@@ -67,35 +67,36 @@ struct Tree {
   const Model& model;
   std::vector<TreeBody> bodies;
   std::vector<PrescribedPath> prescribed;
-  std::vector<TreeMarker> markers;         ///< of the model
-  std::vector<std::size_t> body_of_joint;  ///< which hangs on the model's joint; kNone if free
+  std::vector<TreeMarker> markers;         ///< by the model's markers
+  std::vector<std::size_t> body_of_joint;  ///< outer body of each joint of the model; kNone if free
   Eigen::Index position_count = 0;
   Eigen::Index velocity_count = 0;
   Eigen::Index internal_count = 0;
   std::vector<InternalBlock> internal_blocks;
-  /// Largest distance in a body: from its origin to a joint, or its radius. One for points alone.
+  /// Largest distance within a body, from its origin to a joint, or its radius; one if all are
+  /// points.
   double size_m = 0;
 
   Eigen::Index state_count() const {
     return position_count + velocity_count + internal_count + kQuadratures;
   }
-  /// The part of a state that internal variables are.
+  /// The internal variables in a state.
   template <class State>
   auto internal(State&& state) const {
     return state.segment(position_count + velocity_count, internal_count);
   }
 };
 
-/// The angle of a joint that has one, of marker j against i, which a state's coordinate counts over
-/// turns.
+/// The angle of a joint that has one, of marker j relative to i, with turns counted by a state's
+/// coordinate.
 double joint_angle_rad(const Tree& tree, std::size_t joint,
                        const Eigen::Ref<const Eigen::VectorXd>& state);
 
-/// Positions moved by a displacement of the kind of velocities, (velocity_count), finite.
+/// Moves positions by a finite displacement with the components of velocities, (velocity_count).
 void retract(const Tree& tree, const Eigen::Ref<const Eigen::VectorXd>& change,
              Eigen::Ref<Eigen::VectorXd> positions);
 
-/// Whether the joints of a model make trees.
+/// Returns whether the joints of a model form trees.
 bool is_tree(const Model& model);
 
 }  // namespace flexneck::multibody::tree

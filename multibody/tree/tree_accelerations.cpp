@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The recursion's way outwards: what was eliminated is found from the body before.
+// Outward pass of the recursion: eliminated accelerations are computed from the body before.
 #include "multibody/tree/spatial.h"
 #include "multibody/tree/tree_dynamics.h"
 
@@ -67,8 +67,8 @@ void TreeDynamics::accelerate(const TreeBody& body, Work& work) {
   work.frame.acceleration = carried(at_origin, -work.outer.s);
 }
 
-/// Of a body alone nothing is eliminated; S, which turns what is against the world into its axes,
-/// is a rotation.
+/// Accelerations of a body alone, without elimination; its S, which maps rates relative to the
+/// world to its axes, is a rotation.
 void TreeDynamics::accelerate_alone(const TreeBody& body, Work& work) {
   const auto extra = extra_forces_.segment<6>(body.velocity);
   Vector6d load = -work.terms.bias_r;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Motion and loads of a tree's bodies at a given state, outwards.
+// Motion and loads of a tree's bodies at a given state, in an outward pass.
 #include "multibody/tree/tree_dynamics.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ TreeDynamics::Work::Work(const TreeBody& body)
       z(a),
       U(Matrix6d::Zero()),
       D(Matrix6d::Zero()) {
-  // Of a rigid end this stays; of others it is set anew at each state.
+  // These are constant for a rigid end; for other bodies each state sets them anew.
   tree::update(body.inertia, a, a_rate, Vector3d::Zero(), terms);
   inertia = shifted(terms.M_rr, Vector3d(-outer.s));
   if (body.is_alone) inverse = inertia.llt().solve(Matrix6d::Identity());
@@ -105,7 +105,7 @@ void TreeDynamics::update_body(const TreeBody& body, Work& work, const ConstVect
   }
   tree::update(body.outer, work.a, work.a_rate, work.outer);
 
-  // Orientation and place. Of a fixed joint d and its bias are zero.
+  // Orientation and position. For a fixed joint d and its bias are zero.
   const JointMotion& joint = work.joint;
   if (!body.is_fixed()) {
     tree::update(body.joint, q, u, work.joint);
@@ -148,7 +148,7 @@ void TreeDynamics::update_body(const TreeBody& body, Work& work, const ConstVect
     tree::update(body.inertia, work.a, work.a_rate, frame.w, work.terms);
 }
 
-/// The same of a body whose markers F and M are the world and its own axes.
+/// Updates a body whose markers F and M are the world and its own axes.
 void TreeDynamics::update_alone(const TreeBody& body, Work& work, const ConstVector& state) {
   const auto u = state.segment<6>(tree_.position_count + body.velocity);
   tree::update(body.joint, state.segment<7>(body.position), u, work.joint);

@@ -22,13 +22,14 @@ class TreeDynamics {
   /// @param tree  must outlive this
   explicit TreeDynamics(const Tree& tree, Drive drive = Drive::prescribed);
 
-  /// Tables are read inside of this interval only, so that at its ends a jump shows its inner side.
+  /// Restricts the reading of tables to this interval: a jump at its ends then shows its inner
+  /// side.
   void set_interval(double begin_s, double end_s);
-  /// What is asked for: `motion` leaves out the moments in joints that hold bodies on prescribed
-  /// ones that do not turn (TreeBody::rides). Nothing that moves depends on them.
+  /// Required results: `motion` leaves out the moments in joints that fix bodies to prescribed ones
+  /// that do not rotate (TreeBody::rides). No motion depends on them.
   enum class Purpose { motion, reactions };
 
-  // What update() takes the internal variables of force elements to be; see ForceSet.
+  // These choose the internal variables of force elements for update(); see ForceSet.
   void relax() { forces_.relax(); }
   void give_internal(const ConstVector& state) { forces_.give_internal(tree_.internal(state)); }
   void begin_step(const ConstVector& state, const ConstVector& rate, double length_s) {
@@ -36,39 +37,39 @@ class TreeDynamics {
   }
   void follow_step() { forces_.follow_step(); }
 
-  /// Positions and velocities of everything, inertia and loads.
+  /// Updates positions and velocities of all bodies and markers, inertia and loads.
   void update(double time_s, const ConstVector& state, Purpose purpose = Purpose::reactions);
-  /// Accelerations and joint reactions.
+  /// Solves for accelerations and joint reactions.
   void solve();
-  /// Rate of the whole state (Tree::state_count()), for the purpose of motion.
+  /// Computes the rate of the whole state (Tree::state_count()), for the purpose of motion.
   void evaluate(double time_s, const ConstVector& state, Eigen::VectorXd& rate);
-  /// The same for a state that was updated, with given accelerations; powers are of the last
+  /// Fills in the rate of an updated state from given accelerations; powers are those of the last
   /// solve().
   void fill_rate(const ConstVector& state, const ConstVector& accelerations,
                  Eigen::VectorXd& rate) const;
-  /// Generalised forces besides the model's, (velocity_count); zero unless set.
+  /// Generalised forces in addition to the model's, (velocity_count); zero unless set.
   Eigen::VectorXd& extra_forces() { return extra_forces_; }
 
   const Tree& tree() const { return tree_; }
-  /// (velocity_count), after solve().
+  /// Accelerations, (velocity_count), after solve().
   const Eigen::VectorXd& accelerations() const { return accelerations_; }
   BodyState body_state(std::size_t body) const;
-  /// Accelerations only after solve().
+  /// Computes the motion of a marker; its accelerations are valid only after solve().
   void marker_state(std::size_t marker, MarkerState& state);
-  /// Of the model's joint, after solve().
+  /// Reaction of the model's joint, after solve().
   Reaction joint_reaction(std::size_t joint) const;
-  /// Marker i's axes to the world.
+  /// Rotation from the axes of the joint's marker i to the world.
   Eigen::Matrix3d joint_axes(std::size_t joint) const;
   const Eigen::VectorXd& modal(std::size_t body) const { return work_[body].a; }
   Energies energies() const;
   const ForceSet& forces() const { return forces_; }
   double dissipation_W() const;
-  /// After solve().
+  /// Power of forces and prescribed bodies, after solve().
   double work_W() const;
   int evaluations() const { return evaluations_; }
 
  private:
-  /// A frame's motion, vectors but x in its own axes; acc is less gravity.
+  /// A frame's motion, all vectors except x in its own axes; acc is less gravity.
   struct Frame {
     Eigen::Matrix3d A = Eigen::Matrix3d::Identity();
     Eigen::Vector3d x = Eigen::Vector3d::Zero();
@@ -84,11 +85,11 @@ class TreeDynamics {
     JointMotion joint;
     Eigen::Matrix3d R;  ///< body axes to the carrier's
     Eigen::Vector3d d;  ///< F to M, carrier's axes
-    Matrix6d S;         ///< the joint's, body axes
+    Matrix6d S;         ///< S of the joint, in body axes
     Vector6d inner_bias = Vector6d::Zero();
     Vector6d outer_bias = Vector6d::Zero();
     Vector6d joint_bias = Vector6d::Zero();
-    InertiaTerms terms;  ///< articulated as the recursion comes inwards
+    InertiaTerms terms;  ///< becomes articulated in the inward pass
     Matrix6Xd coupling;  ///< (6, m): M_ra seen from M, then Y^T
     Eigen::VectorXd z;   ///< L^-1 of the modal bias
     Matrix6d inertia;    ///< at M, modes eliminated
@@ -96,10 +97,10 @@ class TreeDynamics {
     Matrix6d U;         ///< inertia S
     Matrix6d D;         ///< factor of S^T U
     Vector6d residual;  ///< tau - S^T bias
-    Matrix6d inverse;   ///< of the inertia of a body alone
+    Matrix6d inverse;   ///< inverse inertia of a body alone
 
-    /// Force above moment at M on this body, body axes: what its articulated
-    /// inertia takes.
+    /// Force above moment at M on this body, body axes: the load for the acceleration of its
+    /// articulated inertia.
     Vector6d reaction() const;
   };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The recursion's way inwards: modes and joints are eliminated body by body.
+// Inward pass of the recursion: modes and joints are eliminated body by body.
 #include <cmath>
 
 #include "multibody/numerics/cholesky.h"
@@ -19,16 +19,16 @@ void TreeDynamics::eliminate_modes(const TreeBody& body, Work& work) {
   InertiaTerms& terms = work.terms;
   if (!body.is_rigid_end) work.inertia = shifts ? shifted(terms.M_rr, back) : terms.M_rr;
   work.bias = shifts ? shifted(terms.bias_r, back) : terms.bias_r;
-  // Where M is the origin, the bias of its acceleration is zero.
+  // If M is the origin, the bias of its acceleration is zero.
   if (shifts) work.bias.noalias() -= work.inertia * work.outer_bias;
   if (m == 0) return;
-  // The articulated inertia of a body that a prescribed one holds is not needed.
+  // The articulated inertia of a body fixed to a prescribed one is not needed.
   const bool is_held = body.carrier.body == kNone && body.is_fixed();
   Matrix6Xd& coupling = work.coupling;
   for (Index l = 0; l < m; ++l) {
     coupling.col(l) = terms.M_ra.col(l);
     if (shifts) coupling.col(l) = shifted(Vector6d(coupling.col(l)), back);
-    // The body's own modal forces and those of the extra kind.
+    // Modal forces of the body and the extra ones.
     work.z[l] = terms.bias_a[l] - coupling.col(l).dot(work.outer_bias) -
                 extra_forces_[body.velocity + body.joint.velocity_count() + l];
   }
@@ -70,7 +70,7 @@ void TreeDynamics::eliminate_modes(const TreeBody& body, Work& work) {
 void TreeDynamics::eliminate_joint(const TreeBody& body, Work& work) {
   const Index nu = body.joint.velocity_count();
   if (nu == 0) return;
-  const bool is_carried = body.carrier.body != kNone;  // else nothing asks for what goes inwards
+  const bool is_carried = body.carrier.body != kNone;  // otherwise nothing is passed inwards
   for (Index k = 0; k < nu; ++k) {
     work.U.col(k).noalias() = work.inertia * work.S.col(k);
     work.residual[k] = extra_forces_[body.velocity + k] - work.S.col(k).dot(work.bias);
@@ -128,8 +128,7 @@ void TreeDynamics::pass_inwards(const TreeBody& body, Work& work) {
   }
 }
 
-/// The same with an inertia [m, -~S; ~S, J]: only S and J need to be turned and
-/// moved.
+/// Passes inwards an inertia [m, -~S; ~S, J]: only S and J must be rotated and shifted.
 void TreeDynamics::pass_inwards_from_rigid_end(const TreeBody& body, Work& work) {
   Work& carrier = work_[body.carrier.body];
   const Vector3d& s = work.inner.s;

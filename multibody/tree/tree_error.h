@@ -26,7 +26,7 @@ class TreeError {
 
   ErrorEstimate operator()(const Eigen::VectorXd& begin, const Eigen::VectorXd& end,
                            const Eigen::VectorXd& error) const;
-  /// E.g. "rate of joint 'head'".
+  /// Name of a component, e.g. "rate of joint 'head'".
   std::string name_of(std::size_t component) const;
 
  private:

@@ -47,7 +47,8 @@ TreeJoint::TreeJoint(const Joint& joint, bool inner_is_i) : law(joint.kind->moti
   frame.lead_m_per_rad = joint.lead_m / (2 * std::numbers::pi);
   if (joint.kind->axes != JointAxes::two) return;
   (inner_is_i ? frame.axis_m : frame.axis_f) = joint.second_axis;
-  // Bring M's axis across F's by the smallest turn; none where the markers' axes are so already.
+  // Bring M's axis perpendicular to F's by the smallest rotation; none if the markers' axes already
+  // are.
   Vector3d across = frame.axis_m - frame.axis_f.dot(frame.axis_m) * frame.axis_f;
   if (across.norm() < 1e-6) across = frame.axis_f.unitOrthogonal();
   frame.R0 = Quaterniond::FromTwoVectors(frame.axis_m, across).toRotationMatrix();

@@ -8,15 +8,15 @@
 
 namespace flexneck::multibody::tree {
 
-/// Of a body that hangs on the world by no joint at all. Coordinates: position, quaternion; rates:
+/// Motion of a body connected to the world by no joint. Coordinates: position, quaternion; rates:
 /// velocity in F axes, angular velocity in M axes.
 extern const JointMotionLaw kFloatingMotion;
 
-/// A joint seen from its inner marker F to its outer one M, with coordinates q and rates u.
+/// A joint from its inner marker F to its outer one M, with coordinates q and rates u.
 struct TreeJoint {
   TreeJoint() = default;  ///< floating
-  /// @param joint   of a kind that leaves a motion
-  /// @param inner_is_i  F is marker i
+  /// @param joint   of a kind with free motions
+  /// @param inner_is_i  true if F is marker i
   TreeJoint(const Joint& joint, bool inner_is_i);
 
   const JointMotionLaw* law = &kFloatingMotion;
@@ -30,12 +30,12 @@ inline void update(const TreeJoint& joint, const Coordinates& q, const Coordinat
                    JointMotion& motion) {
   joint.law->update(joint.frame, q, u, motion);
 }
-/// q' from u.
+/// Computes q' from u.
 void position_rate(const TreeJoint& joint, const Coordinates& q, const Coordinates& u,
                    Eigen::Ref<Eigen::VectorXd> rate);
-/// q moved by u as a finite displacement.
+/// Moves q by u as a finite displacement.
 void retract(const TreeJoint& joint, const Coordinates& u, Eigen::Ref<Eigen::VectorXd> q);
-/// The coordinates whose R and d come next to the given ones.
+/// The coordinates whose R and d are nearest to the given ones.
 Eigen::VectorXd nearest_coordinates(const TreeJoint& joint, const Eigen::Matrix3d& R,
                                     const Eigen::Vector3d& d);
 

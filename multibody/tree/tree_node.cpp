@@ -41,7 +41,7 @@ void update(const TreeNode& node, const Eigen::VectorXd& a, const Eigen::VectorX
     motion.mu = node.mu;
     add_slopes(node.slopes.psi, a, motion.psi);
     add_slopes(node.slopes.mu, a, motion.mu);
-    // Half of what the slopes make has the shapes without them.
+    // The slopes' contribution, which is in psi(a) a and mu(a) a, counts only by half.
     for (Eigen::Index l = 0; l < a.size(); ++l) {
       motion.s += (0.5 * a[l]) * (node.psi.col(l) - motion.psi.col(l));
       theta += (0.5 * a[l]) * (node.mu.col(l) - motion.mu.col(l));
@@ -53,8 +53,8 @@ void update(const TreeNode& node, const Eigen::VectorXd& a, const Eigen::VectorX
     theta += a[l] * motion.mu.col(l);
     theta_dot += a_rate[l] * motion.mu.col(l);
   }
-  // From the quaternion of the rotation: turn = p theta' + c (theta . theta') theta
-  // + b theta x theta' with p = sin t / t = 1 - c t^2, and its rate while theta' stays.
+  // From the quaternion of the rotation: turn = p theta' + c (theta . theta') theta + b theta x
+  // theta' with p = sin t / t = 1 - c t^2, and its rate at constant theta'.
   const double u = theta.squaredNorm();
   const RotationCoefficients k = rotation_coefficients(u);
   const double along = theta.dot(theta_dot);
@@ -73,7 +73,7 @@ void update(const TreeNode& node, const Eigen::VectorXd& a, const Eigen::VectorX
     motion.turn_rate +=
         k.a * curved + (k.c * theta.dot(curved)) * theta + k.b * theta.cross(curved);
   }
-  // cos t I + (sin t / t) ~theta + b theta theta^T.
+  // Rotation matrix cos t I + (sin t / t) ~theta + b theta theta^T.
   Matrix3d turned = k.b * theta * theta.transpose() + k.a * skew(theta);
   turned.diagonal().array() += 1 - k.b * u;
   motion.R.noalias() = turned * node.R0;

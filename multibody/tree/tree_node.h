@@ -8,7 +8,8 @@
 
 namespace flexneck::multibody::tree {
 
-/// Where a marker sits on its body. A rigid or prescribed body's has no columns in psi and mu.
+/// Placement of a marker on its body. That on a rigid or prescribed body has no columns in psi and
+/// mu.
 struct TreeNode {
   TreeNode() = default;
   TreeNode(const Body& body, const Marker& marker);
@@ -18,22 +19,22 @@ struct TreeNode {
   Eigen::Matrix3Xd mu{3, 0};
   NodeSlopes slopes;                                 ///< empty without stress stiffening
   Eigen::Matrix3d R0 = Eigen::Matrix3d::Identity();  ///< marker axes to body axes, undeformed
-  bool moves = false;                                ///< with the modes
-  bool at_origin = true;                             ///< of the body, whatever its modes do
+  bool moves = false;                                ///< it moves with the modes
+  bool at_origin = true;  ///< it coincides with the body's origin, whatever its modes do
 };
 
-/// Its place and motion seen from the body, in body axes (equations.md section 7).
+/// Position and motion of a node relative to the body, in body axes (equations.md section 7).
 struct NodeMotion {
   explicit NodeMotion(const TreeNode& node);
 
   Eigen::Vector3d s;     ///< position
   Eigen::Matrix3d R;     ///< marker axes to body axes
-  Eigen::Matrix3Xd psi;  ///< (3, m): velocity against the body by the modal rates
-  Eigen::Matrix3Xd jm;   ///< (3, m): angular velocity against the body by the modal rates
+  Eigen::Matrix3Xd psi;  ///< (3, m): velocity relative to the body by the modal rates
+  Eigen::Matrix3Xd jm;   ///< (3, m): angular velocity relative to the body by the modal rates
   Eigen::Vector3d s_dot = Eigen::Vector3d::Zero();
-  Eigen::Vector3d s_dot_rate = Eigen::Vector3d::Zero();  ///< of `s_dot`, while the rates stay
-  Eigen::Vector3d turn = Eigen::Vector3d::Zero();        ///< angular velocity against the body
-  Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();   ///< of `turn`, while the rates stay
+  Eigen::Vector3d s_dot_rate = Eigen::Vector3d::Zero();  ///< rate of `s_dot`, at constant rates
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();        ///< angular velocity relative to the body
+  Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();   ///< rate of `turn`, at constant rates
   Eigen::Matrix3Xd mu;  ///< (3, m): rate of the rotation vector by the modal rates
 };
 

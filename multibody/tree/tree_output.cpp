@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is read off a tree once its equations are solved.
+// Output of a tree once its equations are solved.
 #include <algorithm>
 
 #include "multibody/tree/spatial.h"
@@ -71,7 +71,7 @@ Reaction TreeDynamics::joint_reaction(std::size_t joint) const {
   const Vector3d force = work.frame.A * reaction.head<3>();
   const Vector3d moment = work.frame.A * reaction.tail<3>();
   if (tree_.bodies[b].inner_is_i) return {force, moment};
-  // Marker j is the inner one: what is known at M acts on i, and counts about F.
+  // Marker j is the inner one: the load at M acts on i, and is referred to F.
   const Vector3d arm = frame_of(tree_.bodies[b].carrier).A * work.d;
   return {-force, -(moment + arm.cross(force))};
 }
@@ -119,7 +119,7 @@ double TreeDynamics::dissipation_W() const {
 
 double TreeDynamics::work_W() const {
   double power = forces_.work_W();
-  // What the prescribed body's point at M does on the body that it carries.
+  // Adds the power of the prescribed body's point at M on the body that it carries.
   for (std::size_t b = 0; b < work_.size(); ++b) {
     const Carrier& carrier = tree_.bodies[b].carrier;
     if (carrier.prescribed == kNone) continue;
@@ -127,7 +127,7 @@ double TreeDynamics::work_W() const {
     const Work& work = work_[b];
     const Vector6d reaction = work.reaction();
     const Vector3d velocity = prescribed.v + prescribed.w.cross(work.inner.s + work.d);
-    // R takes this body's axes to the prescribed one's.
+    // R maps this body's axes to the prescribed one's.
     power += (work.R * reaction.head<3>()).dot(velocity) +
              (work.R * reaction.tail<3>()).dot(prescribed.w);
   }

@@ -13,8 +13,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Extent of the displacements that differences are taken over: their error, of second order in it,
-/// and rounding are then both about 1e-11 of the result.
+/// Extent of the displacements of the finite differences: their error, of second order in it, and
+/// rounding are then both about 1e-11 of the result.
 constexpr double kDifference = 1e-5;
 
 }  // namespace
@@ -25,7 +25,7 @@ TreeRest::TreeRest(TreeDynamics& dynamics, const VectorXd& state, double time_s)
 }
 
 void TreeRest::update_basis() {
-  // Column i of M^-1 is what a unit force in i adds to the accelerations.
+  // Column i of M^-1 is the change of the accelerations by a unit force in i.
   const Index n = dynamics_.tree().velocity_count;
   if (n == 0) return;
   MatrixXd inverse(n, n);
@@ -50,7 +50,8 @@ double TreeRest::extent(const VectorXd& xi) const {
   for (const TreeBody& body : tree.bodies) {
     const Index nu = body.joint.velocity_count();
     const Index m = body.inertia.mode_count();
-    // Distances in m count as if the system were a metre long: only an order of magnitude matters.
+    // Distances in m count as if the system's size were one metre: only the order of magnitude
+    // matters.
     extent = std::max({extent, change.segment(body.velocity, nu).norm(),
                        change.segment(body.velocity + nu, m).norm() /
                            (std::sqrt(body.inertia.mass) * tree.size_m)});
@@ -73,7 +74,7 @@ VectorXd TreeRest::forces_at(const VectorXd& xi) {
 double TreeRest::energy() const {
   const Energies stored = dynamics_.energies();
   const ForceSet& forces = dynamics_.forces();
-  // Springs are in both.
+  // The energy of springs is in both terms.
   return stored.gravitational_J + stored.strain_J + forces.potential_J() - forces.stored_J();
 }
 

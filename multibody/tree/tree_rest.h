@@ -8,13 +8,13 @@
 
 namespace flexneck::multibody::tree {
 
-/// The search for an equilibrium in a tree's own coordinates: displacements N xi of the joints and
-/// modes with N N^T = M^-1.
+/// The equilibrium search in a tree's own coordinates: displacements N xi of the joints and modes
+/// with N N^T = M^-1.
 class TreeRest final : public RestProblem {
  public:
   /// @param dynamics  with Drive::held; must outlive this
   /// @param state     at rest
-  /// @param time_s    of the forces and the prescribed bodies' places
+  /// @param time_s    time of the forces and the prescribed bodies' positions
   TreeRest(TreeDynamics& dynamics, const Eigen::VectorXd& state, double time_s = 0);
 
   Eigen::Index count() const override { return N_.cols(); }

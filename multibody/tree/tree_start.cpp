@@ -17,7 +17,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Place and velocity of a frame, world axes.
+/// Position and velocity of a frame, world axes.
 struct FrameState {
   Vector3d x = Vector3d::Zero();
   Matrix3d R = Matrix3d::Identity();
@@ -42,7 +42,7 @@ FrameState prescribed_state(const PrescribedPath& path, double time_s, const Tre
           body.velocity_m_s + body.angular_velocity_rad_s.cross(arm), body.angular_velocity_rad_s};
 }
 
-/// Puts the angle of a joint that has one into the turn in which it is to start.
+/// Puts the angle of a joint that has one into the turn in which it starts.
 void start_in_turn(const Tree& tree, const TreeBody& body, VectorXd& q) {
   if (body.joint_index == kNone) return;
   const Joint& joint = tree.model.joints[body.joint_index];
@@ -51,7 +51,7 @@ void start_in_turn(const Tree& tree, const TreeBody& body, VectorXd& q) {
   q.tail<1>()[0] = CountedAngle{.angle_rad = start}.at(0, q.tail<1>()[0], 0).angle_rad;
 }
 
-/// A joint's coordinates and rates, and what is left of the markers' relative motion.
+/// A joint's coordinates and rates, and the residuals of its markers' relative motion.
 struct Fit {
   VectorXd q, u;
   Violation position, velocity;
@@ -82,8 +82,8 @@ Fit fit(const TreeJoint& joint, const FrameState& inner, const FrameState& outer
 
 struct Fits {
   VectorXd state;
-  std::vector<Fit> joints;  ///< of the tree's bodies
-  double speed_m_s = 0;     ///< largest of a marker
+  std::vector<Fit> joints;  ///< by the tree's bodies
+  double speed_m_s = 0;     ///< largest speed of a marker
 };
 
 Fits fit_all(const Tree& tree, const std::vector<BodyState>& bodies) {

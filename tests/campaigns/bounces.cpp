@@ -31,11 +31,11 @@ constexpr int kOutputs = 40;
 struct Problem {
   Model model;
   double end_s = 1;
-  std::vector<double> expected;  ///< at the outputs
+  std::vector<double> expected;  ///< expected coordinate at the outputs
   std::function<double(const History&, Eigen::Index)> coordinate;
   double size = 1;
   int kinks = 0;
-  double stiffest_rad_s = 0;  ///< of the stops and ropes that were met
+  double stiffest_rad_s = 0;  ///< largest frequency of the stops and ropes that were met
 };
 
 void expect(Problem& problem, PiecewiseMotion motion) {
@@ -47,7 +47,7 @@ void expect(Problem& problem, PiecewiseMotion motion) {
   problem.kinks = motion.kinks();
 }
 
-/// A slider or a rotor under a constant load, between one stop or two; one in three grazes.
+/// A slider or a rotor under a constant load, between one or two stops; one in three grazes a stop.
 Problem stops(Case& drawn) {
   const bool slides = drawn.chance(0.6);
   const double inertia = log_between(drawn, 0.1, 10);
@@ -63,7 +63,7 @@ Problem stops(Case& drawn) {
     const double apex = speed * speed / (-2 * acceleration);
     upper = apex - log_between(drawn, 1e-6, 0.05) * std::min(1.0, apex);
   }
-  // A rotor within half a turn of its stops, whichever is there.
+  // A rotor stays within half a turn of its stops.
   const double stiffness = inertia * log_between(drawn, 1e2, 1e7);
   ModelBuilder build;
   const auto ground = build.ground();
@@ -97,7 +97,7 @@ Problem stops(Case& drawn) {
       return axis.dot(history.marker("c").position_m.col(k));
     };
   } else {
-    // The turn of an output is compared within a turn.
+    // The rotation at an output is compared modulo full turns.
     problem.coordinate = [axis](const History& history, Eigen::Index k) {
       const Quaterniond q = rotation_at(history.marker("c").rotation, k);
       return 2 * std::atan2(q.vec().dot(axis), q.w());
@@ -107,7 +107,7 @@ Problem stops(Case& drawn) {
   return problem;
 }
 
-/// Two free bodies on a rope, which tightens once or again.
+/// Two free bodies connected by a rope, which tightens once or repeatedly.
 Problem rope(Case& drawn) {
   const double mass_i = log_between(drawn, 0.1, 10);
   const double mass_j = log_between(drawn, 0.1, 10);
@@ -133,7 +133,8 @@ Problem rope(Case& drawn) {
   spring.resistance.tension_only = true;
   build.model.forces.add(spring);
   Problem problem;
-  // Back to a quarter of its length: beyond they would pass.
+  // The run ends when they are back at a quarter of the rope's length: further on they would pass
+  // each other.
   problem.end_s = (length - start) / speed + 0.75 * length / speed;
   problem.model = build.model;
   problem.stiffest_rad_s = std::sqrt(stiffness / reduced);
@@ -144,8 +145,8 @@ Problem rope(Case& drawn) {
   return problem;
 }
 
-/// A block that friction brakes while a force pushes it: constant rates beyond the full rate,
-/// decays below.
+/// A block that friction brakes while a force pushes it: constant rates above the full rate, decays
+/// below.
 Problem friction(Case& drawn) {
   const double mass = log_between(drawn, 0.1, 10);
   const double full = log_between(drawn, 1e-3, 0.3);
@@ -195,7 +196,7 @@ double largest_error(const Problem& problem, const History& history) {
   return worst;
 }
 
-/// The largest change of the balance against the largest energy.
+/// Largest change of the energy balance over the largest energy.
 double energy_error(const EnergyHistory& energy) {
   const Eigen::VectorXd balance = energy.kinetic_J + energy.gravitational_J + energy.strain_J +
                                   energy.dissipated_J - energy.work_J;
@@ -205,9 +206,9 @@ double energy_error(const EnergyHistory& energy) {
   return (balance.array() - balance[0]).abs().maxCoeff() / largest;
 }
 
-/// Each kink passes on what errors there are at the speed of the motion. The implicit method's
-/// tolerance is of displacements: in a contact they are errors of speed by its frequency, as far as
-/// the balance of energy is not off by what is told: by 1e-3 of the largest energy, a speed of 3 %.
+/// Allowed error: each kink carries errors on at the speed of the motion. The implicit method's
+/// tolerance is that of displacements: in a contact they become errors of speed by its frequency,
+/// up to the limit of the energy balance, 1e-3 of the largest energy or 3 % of a speed.
 double allowed_error(const Problem& problem, bool implicit, double tolerance) {
   if (!implicit) return (1 + problem.kinks) * 100 * tolerance;
   const double of_speed = 3 * tolerance * problem.stiffest_rad_s * problem.end_s;
@@ -249,7 +250,8 @@ std::optional<std::string> judge(Case& drawn) {
       return found.str();
     }
     if (!implicit || error < 1e-7) return {};
-    // Its order: a tolerance a hundredth is an error 21 times less, of which half is asked for.
+    // Order of convergence: with a hundredth of the tolerance the error is 21 times less, half of
+    // which is required.
     solver.relative_tolerance /= 100;
     solver.absolute_tolerance /= 100;
     const double finer = largest_error(problem, run()) / problem.size;

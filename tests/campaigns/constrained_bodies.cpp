@@ -31,7 +31,7 @@ std::array<bool, 3> some_directions(Case& drawn) {
   return some;
 }
 
-/// A block of up to four hexahedra, or their pieces, whose size and place are drawn.
+/// A block of up to four hexahedra, or elements cut from them, of random size and position.
 struct Body {
   explicit Body(Case& drawn) : drawn_(drawn) {
     size_m = log_between(drawn, 1e-3, 10);
@@ -57,7 +57,7 @@ struct Body {
   }
 
   std::int32_t node() { return drawn_.whole(0, static_cast<int>(mesh.nodes.size()) - 1); }
-  /// One that nothing else determines yet.
+  /// A node that no equation determines yet.
   std::int32_t new_node() {
     std::int32_t found = node();
     for (int tries = 0; tries < 100 && used.contains(found); ++tries) found = node();
@@ -114,7 +114,7 @@ void add_coupling(Case& drawn, Body& body) {
                                 {inertia, 1.2 * inertia, 0.9 * inertia, 0, 0, 0}});
 }
 
-/// The upper face's nodes move as those below them, in all directions.
+/// Equations by which the upper face's nodes move as those below them, in all directions.
 void add_periodic(Body& body) {
   const std::vector<std::int32_t>& lower = body.set("bottom");
   const std::vector<std::int32_t>& upper = body.set("top");

@@ -21,7 +21,7 @@ std::string printed(const char* format, double value) {
   return text.data();
 }
 
-/// A position of at most three decimals.
+/// Text of a coordinate with at most three decimals.
 std::string coordinate(Case& drawn, double value, bool is_short) {
   const int style = is_short ? 0 : drawn.whole(0, 2);
   std::string text = printed(style == 0 ? "%.3f" : "%.6E", value);
@@ -32,7 +32,7 @@ std::string coordinate(Case& drawn, double value, bool is_short) {
 /// A value of four digits: 1.234E+03.
 std::string value_text(double value) { return printed("%.3E", value); }
 
-/// Capitals, small letters, or as it is.
+/// The text in capitals, in small letters, or unchanged.
 std::string cased(Case& drawn, std::string text) {
   const int style = drawn.whole(0, 2);
   for (char& c : text) {
@@ -42,7 +42,7 @@ std::string cased(Case& drawn, std::string text) {
   return text;
 }
 
-/// Where nodes stand in a format: corners, and midside nodes by their two corners.
+/// Node order of a format, given by corners, and midside nodes by their two corners.
 std::vector<std::size_t> order_of(ElementKind kind, const std::string& text) {
   const auto nodes = mesher::reference_nodes(kind);
   std::istringstream words(text);
@@ -62,7 +62,7 @@ struct Orders {
   const char *abaqus_type, *abaqus, *nastran_type, *nastran, *unv_type, *unv, *gmsh_type, *gmsh;
 };
 
-/// By the shape; linear kinds have the corners of the same.
+/// Node orders of the formats by shape; linear kinds have the same corners.
 const Orders& orders_of(ElementKind kind) {
   static const Orders kHexahedron = {
       "C3D20", "0 1 2 3 4 5 6 7 01 12 23 30 45 56 67 74 04 15 26 37",
@@ -99,7 +99,7 @@ std::vector<std::string> element_fields(const Deck& deck, std::size_t element,
   return numbers_of(deck, nodes);
 }
 
-/// Indices in the order in which a deck writes them.
+/// Random order in which a deck writes its items.
 std::vector<std::size_t> shuffled(Case& drawn, std::size_t count) {
   std::vector<std::size_t> all(count);
   for (std::size_t k = 0; k < count; ++k) all[k] = k;
@@ -107,7 +107,7 @@ std::vector<std::size_t> shuffled(Case& drawn, std::size_t count) {
   return all;
 }
 
-/// Abaqus: keyword lines and lines of data, with blanks, comments and both cases.
+/// Writes Abaqus input: keyword lines and lines of data, with blanks, comments and both cases.
 class InpText {
  public:
   explicit InpText(Case& drawn) : drawn_(drawn) {}
@@ -157,7 +157,8 @@ void add_inp_set(Case& drawn, const Deck& deck, const std::string& name,
   }
 }
 
-/// Bulk data: cards in free fields, in fixed ones of 8 or of 16 columns, continued in each style.
+/// Writes bulk data: cards in free fields, in fixed ones of 8 or of 16 columns, continued in each
+/// style.
 class BdfText {
  public:
   explicit BdfText(Case& drawn) : drawn_(drawn) {}
@@ -501,7 +502,7 @@ std::string write_bdf(Case& drawn, const Deck& deck, const std::filesystem::path
            " $ the supports\n" + (drawn.chance(0.5) ? "SUBCASE 1\n" : "") +
            cased(drawn, equations.empty() ? "METHOD = 1" : "MPC 21") + "\n" +
            cased(drawn, "BEGIN BULK") + "\n";
-    out.card("SPC1", {"77", "123", number(1), number(2)});  // of a set that is not selected
+    out.card("SPC1", {"77", "123", number(1), number(2)});  // belongs to a set that is not selected
   }
   std::string wrong = refused ? one_of(drawn, kRefused) : "";
   for (std::size_t at = wrong.find('@'); at != std::string::npos; at = wrong.find('@'))

@@ -15,8 +15,8 @@
 
 namespace flexneck::campaigns {
 
-/// A component from 1 to 6 of a node, in the node's axes; places count nodes of elements first,
-/// then points.
+/// A component from 1 to 6 of a node, in the node's axes; nodes of elements are counted first, then
+/// points.
 struct DeckPlace {
   std::size_t node = 0;
   int component = 1;
@@ -33,16 +33,16 @@ struct DeckAxes {
   Eigen::Matrix3d at(const Eigen::Vector3d& position) const;  ///< radial, tangential, axial
 };
 
-/// What a deck says, in its own units, with numbers that its fields hold exactly.
+/// Content of a deck in its own units, with numbers that its fields hold exactly.
 struct Deck {
   double length_m = 1, force_N = 1;
   double density = 1, youngs_modulus = 1, poissons_ratio = 0.3;
   mesher::ElementKind kind = mesher::ElementKind::hex8;
   std::vector<std::vector<std::size_t>> elements;  ///< nodes in the mesh's order
-  std::vector<Eigen::Vector3d> places;             ///< of nodes, then of points
+  std::vector<Eigen::Vector3d> places;             ///< positions of nodes, then of points
   std::size_t points = 0;
   std::vector<int> numbers, element_numbers;
-  int number_step = 0;  ///< of the nodes' numbers; 0 if they are shuffled
+  int number_step = 0;  ///< step of the nodes' numbers; 0 if they are shuffled
   std::vector<std::size_t> bottom, top;
   struct Hold {
     std::size_t node;
@@ -79,15 +79,14 @@ struct Deck {
   std::size_t nodes() const { return places.size() - points; }
 };
 
-/// Writes the deck in one of many ways that mean the same, `name` with its ending and the files
-/// that it includes. With `refused`, something of which the format's reader cannot take the meaning
-/// is in it.
+/// Writes the deck in one of many equivalent ways, as `name` with its ending and the files that it
+/// includes. If `refused`, it contains something that the format's reader cannot interpret.
 /// @return what that is; else nothing
 std::string write_inp(Case& drawn, const Deck& deck, const std::filesystem::path& file,
                       bool refused);
 std::string write_bdf(Case& drawn, const Deck& deck, const std::filesystem::path& file,
                       bool refused);
-/// Nodes, elements and the sets "bottom" and "top".
+/// Writes nodes, elements and the sets "bottom" and "top".
 std::string write_unv(Case& drawn, const Deck& deck, const std::filesystem::path& file,
                       bool refused);
 std::string write_msh(Case& drawn, const Deck& deck, const std::filesystem::path& file,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Abaqus, Nastran, UNV and gmsh decks of random features and spellings, against dense eigenvalues
-// of what they mean; a share has what must be refused.
+// of the model they describe; some contain something that must be refused.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -25,10 +25,10 @@ using namespace flexneck::campaigns;
 using Eigen::Vector3d;
 using mesher::ElementKind;
 
-/// In lengths of the deck.
+/// Size of the body in lengths of the deck.
 constexpr double kSize = 40;
 
-/// Values that are written with four digits.
+/// The value rounded to the four digits that are written.
 double rounded(double value) {
   const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 3);
   const double digits = std::round(value / unit);
@@ -40,7 +40,7 @@ double value_between(Case& drawn, double low, double high) {
   return rounded(log_between(drawn, low, high));
 }
 
-/// Positions have three decimals.
+/// The position rounded to three decimals.
 Vector3d place(const Vector3d& at) { return (at * 1000).array().round() / 1000; }
 
 struct Draft {
@@ -118,7 +118,7 @@ struct Draft {
   std::size_t any_node() {
     return static_cast<std::size_t>(drawn.whole(0, static_cast<int>(deck.nodes()) - 1));
   }
-  /// One that nothing else determines yet.
+  /// A node that no equation determines yet.
   std::size_t new_node() {
     std::size_t found = any_node();
     for (int tries = 0; tries < 100 && used.contains(found); ++tries) found = any_node();
@@ -130,7 +130,7 @@ struct Draft {
       return std::find(axes.nodes.begin(), axes.nodes.end(), node) != axes.nodes.end();
     });
   }
-  /// Abaqus' springs and pins at nodes with axes of their own are not read.
+  /// A node without axes of its own: Abaqus' springs and pins at others are not read.
   std::size_t plain_node() {
     std::size_t found = any_node();
     while (is_abaqus && is_turned(found)) found = any_node();
@@ -153,7 +153,7 @@ struct Draft {
     deck.axes.push_back(axes);
   }
 
-  /// The point is on a rigid body, perhaps with a mass.
+  /// Adds a reference point with a rigid coupling, perhaps with a mass.
   void add_point() {
     if (deck.points == 0) return;
     const std::size_t point = deck.nodes();
@@ -228,7 +228,7 @@ struct Draft {
     return {static_cast<std::int32_t>(site), {c[0], c[1], c[2]}};
   }
 
-  /// The mesh with all that the deck says, as equations.
+  /// The mesh with all content of the deck as equations.
   mesher::Mesh meant() const {
     mesher::Mesh result = mesh;
     mesher::Connections& all = result.connections;

@@ -15,12 +15,13 @@ namespace {
 
 using namespace fe_modal;
 
-/// Relative difference of eigenvalues: the dense ones have rounding, their mass and stiffness
-/// scaled.
+/// Relative tolerance of eigenvalues: the dense ones have rounding errors, though their mass and
+/// stiffness are scaled.
 constexpr double kSame = 1e-6;
-/// An eigenvalue below this share of the material's (c / L)^2 is zero.
+/// Fraction of the material's (c / L)^2 below which an eigenvalue is zero.
 constexpr double kZero = 1e-9;
-/// And one is exact to this share of it at best: stiffnesses are a thousand times the scale.
+/// Fraction of it to which an eigenvalue is exact at best: stiffnesses are a thousand times the
+/// scale.
 constexpr double kRounding = 1e-12;
 
 struct Truth {
@@ -28,11 +29,12 @@ struct Truth {
   Eigen::Index zeros = 0;
 };
 
+/// The lowest dense eigenvalues of a mesh.
 /// @param scale  the material's (c / L)^2
 Truth dense_truth(const mesher::Mesh& mesh, double size_m, double scale, Eigen::Index count) {
   DenseConstraints model = dense_model(mesh);
   const Eigen::Index size = model.stiffness.rows();
-  // Rotations as lengths, and equations of unit size.
+  // Rotations are scaled to lengths, and equations to unit size.
   Eigen::VectorXd units = Eigen::VectorXd::Ones(size);
   const auto nodes = static_cast<Eigen::Index>(mesh.nodes.size());
   for (Eigen::Index point = nodes; 3 * point < size; point += 2)
@@ -59,10 +61,10 @@ bool is_refusal_of_input(const std::string& text) {
          says(text, "on the axis of") || says(text, "carries a mass that nothing holds");
 }
 
-/// An eigenvalue below this share may be lost in rounding, as those of mechanisms are.
+/// Fraction of the scale below which an eigenvalue may be lost in rounding, like a mechanism's.
 constexpr double kLost = 1e-10;
 
-/// Some motion has so little stiffness that the body may be called a mechanism.
+/// Returns whether some motion has so little stiffness that the body may be called a mechanism.
 bool moves_softly(const mesher::Mesh& mesh, double size_m, double scale, Eigen::Index count) {
   const Truth truth = dense_truth(mesh, size_m, scale, count);
   return truth.zeros < truth.values.size() && truth.values[truth.zeros] < kLost * scale;
@@ -93,7 +95,7 @@ std::optional<std::string> compare_modes(Case& drawn, const mesher::Mesh& given,
     drawn.was_refused = true;
     return std::nullopt;
   } catch (const ComputationError& error) {
-    // Frequencies too far apart for the digits of a solve, which it says.
+    // The frequencies are too far apart for the digits of a solve, as the message says.
     if (says(error.what(), "has not converged") ||
         (says(error.what(), "too near to it") &&
          moves_softly(meant, size_m, wave_1_s2, options.mode_count))) {
@@ -107,7 +109,7 @@ std::optional<std::string> compare_modes(Case& drawn, const mesher::Mesh& given,
   const Truth truth = dense_truth(meant, size_m, wave_1_s2, options.mode_count);
   const Eigen::VectorXd values = (2 * std::numbers::pi * found.frequencies_Hz.array()).square();
   const Eigen::Index zeros = (values.array() == 0).count();
-  // One that is small but no zero, as of a soft spring, is the same in both.
+  // An eigenvalue that is small but not zero, as with a soft spring, is the same in both.
   const auto is_same = [&](Eigen::Index k) {
     return std::abs(values[k] - truth.values[k]) <= 0.1 * truth.values[k];
   };

@@ -10,9 +10,9 @@
 namespace flexneck::campaigns {
 
 /// Compares the lowest eight modes of a mesh with the dense eigenvalues, in the null space of all
-/// equations, of what it means: the same mesh as a rule, or the one that a file was written from.
-/// @param size_m  of the body
-/// @return what is wrong; nothing if the modes are right, or refused for a reason that holds
+/// equations, of the intended mesh: usually the same one, or the one from which a file was written.
+/// @param size_m  size of the body
+/// @return what is wrong; nothing if the modes are right, or refused for a valid reason
 std::optional<std::string> compare_modes(Case& drawn, const mesher::Mesh& given,
                                          const mesher::Mesh& meant, double size_m);
 

@@ -9,12 +9,12 @@
 
 namespace flexneck::campaigns {
 
-/// Even in its logarithm.
+/// A random number with uniform logarithm.
 inline double log_between(Case& drawn, double low, double high) {
   return std::exp(drawn.between(std::log(low), std::log(high)));
 }
 
-/// A unit vector, even over the sphere.
+/// A random unit vector, uniform over the sphere.
 inline Eigen::Vector3d direction(Case& drawn) {
   Eigen::Vector3d v;
   do {

@@ -15,7 +15,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using multibody::JointKind;
 
-/// Across an axis.
+/// A random unit vector perpendicular to an axis.
 Vector3d across(Case& drawn, const Vector3d& axis) {
   return axis.cross(direction(drawn)).normalized();
 }
@@ -26,7 +26,7 @@ int freedoms_of(const std::string& kind) {
                               : static_cast<int>(kind_of(kind).motion->rates);
 }
 
-/// Draws a tree of bodies, its joints parallel where it is planar, and closes loops.
+/// Draws a tree of bodies, with parallel joints if it is planar, and closes loops.
 struct Draft {
   explicit Draft(Case& random) : drawn(random), normal(direction(random)) {
     made.gravity_m_s2 =
@@ -102,7 +102,7 @@ struct Draft {
     made.connections.push_back(c);
   }
 
-  /// Of the joints between two bodies along the tree.
+  /// Number of degrees of freedom of the joints between two bodies along the tree.
   int freedoms_between(std::size_t a, std::size_t b) const {
     int sum = 0;
     while (a != b) {
@@ -113,7 +113,7 @@ struct Draft {
     return sum;
   }
 
-  /// A loop, where joints leave it a motion.
+  /// Closes a loop if its joints keep a freedom.
   void close() {
     static const std::array kKinds = {"distance",    "spherical", "revolute", "universal",
                                       "cylindrical", "planar",    "prismatic"};

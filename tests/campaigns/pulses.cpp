@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pulses of random shape, place and number in runs of random length, as the motion of a body, of
-// its turn or of a joint, and as a force: the velocity that they make, against its closed form.
+// Pulses of random shape, time and number in runs of random length, as the translation of a body,
+// as its rotation or that of a joint, and as a force: the resulting velocity, against its closed
+// form.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,7 +23,7 @@ using flexneck::campaigns::Case;
 using flexneck::campaigns::log_between;
 using std::numbers::pi;
 
-/// Over x from 0 to 1: an expression, and its integral from 0.
+/// A pulse shape over x from 0 to 1: an expression, and its integral from 0.
 struct Shape {
   const char* text;
   double (*integral)(double x);
@@ -35,7 +36,7 @@ constexpr std::array<Shape, 5> kShapes = {{
     {"(1-cos(2*pi*{0}))/2", [](double x) { return x / 2 - std::sin(2 * pi * x) / (4 * pi); }},
     {"{0}", [](double x) { return x * x / 2; }},
 }};
-/// The shape that is smooth enough for a displacement: a bump.
+/// Index of the shape that is smooth enough for a displacement: a bump.
 constexpr std::size_t kBump = 3;
 
 struct Pulse {
@@ -99,7 +100,8 @@ Drawn draw(Case& drawn) {
   return of;
 }
 
-/// A block that hangs on a sled by a joint along x or about z, and a force that pushes it.
+/// Model text: a block on a sled, connected by a joint along x or about z, and a force that pushes
+/// it.
 std::string model_text(const Drawn& of) {
   const std::string expression = of.expression();
   const bool is_turn = of.drive == Drive::turn;
@@ -145,12 +147,12 @@ std::string model_text(const Drawn& of) {
       is_turn ? "revolute" : "prismatic", is_turn ? "0, 0, 1" : "1, 0, 0", rest);
 }
 
-/// A displacement is known to 1e-12 of its largest value, its velocity over a short bump to less:
-/// one beside another so many times larger may be refused, however the run finds that out.
+/// Ratio of sizes above which a smaller bump may be refused: a displacement is known to 1e-12 of
+/// its largest value, its velocity over a short bump less accurately.
 constexpr double kBesideLarger = 1e4;
 
-/// Refusals that are right: such bumps, and a blow that the implicit method does not resolve, as
-/// the balance of energy tells.
+/// Refusals that are right: such bumps, and an impact that the implicit method does not resolve, as
+/// the energy balance shows.
 bool is_refused_rightly(const Drawn& of, const std::string& text) {
   if (of.is_implicit && text.find("balance of energy") != std::string::npos) return true;
   if (of.drive != Drive::displacement) return false;
@@ -181,7 +183,7 @@ std::optional<std::string> compare(const Drawn& of, const std::string& file) {
     size +=
         std::abs(of.drive == Drive::displacement ? pulse.rate(pulse.begin_s + pulse.length_s / 4)
                                                  : pulse.integral(of.end_s));
-  // A prescribed motion is exact; what the block does is the run's, to its tolerance.
+  // A prescribed motion is exact; the block's motion is accurate to the run's tolerance.
   const double of_run = of.is_implicit ? 2e-2 : 1e-3;
   if (of_sled <= 1e-7 * size && of_block <= of_run * size) {
     std::filesystem::remove(file);

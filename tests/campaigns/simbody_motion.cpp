@@ -49,7 +49,7 @@ struct Twin {
     return UnitVec3(~places[body].R() * vec(axis));
   }
 
-  /// The joint's frames, z along its axis; x for those that Simbody has along x.
+  /// The joint's frames, with z along its axis, or x for joints that Simbody has along x.
   std::array<Transform, 2> frames(const Connection& c) const {
     const bool is_x = c.kind == "prismatic" || c.kind == "universal";
     const UnitVec3 axis(vec(c.axis));
@@ -133,7 +133,7 @@ struct Twin {
                                        s.damping);
   }
 
-  /// Places and velocities of the start, as each mobilizer has them.
+  /// The initial state, in the coordinates of each mobilizer.
   SimTK::State start() {
     SimTK::State state = system.realizeTopology();
     system.realizeModel(state);
@@ -173,7 +173,7 @@ struct Twin {
 }  // namespace
 
 std::optional<Motion> simbody_motion(const Mechanism& mechanism) {
-  // Simbody's bushings turn by Euler angles.
+  // Simbody's bushings use Euler angles.
   for (const Strut& strut : mechanism.struts)
     if (strut.turning_stiffness > 0) return std::nullopt;
   for (const Connection& c : mechanism.connections)

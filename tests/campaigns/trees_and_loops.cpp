@@ -28,12 +28,12 @@ namespace {
 
 constexpr double kTolerance = 1e-10;
 constexpr double kSame = 1e-6;
-/// Twins start this far apart, as a share of velocities and gravity. A motion that parts them by
-/// more than kChaos times that is not compared from then on.
+/// Initial distance of twin runs, as a fraction of velocities and gravity. Once it has grown by
+/// more than kChaos the motion is no longer compared.
 constexpr double kApart = 1e-9;
 constexpr double kChaos = 1e3;
 
-/// The mechanism as flexneck's model; joints are given from either end.
+/// The mechanism as flexneck's model; joints are defined from either end.
 Model model_of(const Mechanism& mechanism, Case& drawn) {
   ModelBuilder build;
   build.ground();
@@ -116,7 +116,7 @@ Motion motion_of(const History& history) {
   return motion;
 }
 
-/// The largest difference of two motions by each output, as a share of the first one's own size.
+/// Largest difference of two motions at each output, as a fraction of the first one's size.
 Eigen::VectorXd differences(const Motion& one, const Motion& other) {
   Eigen::VectorXd found = Eigen::VectorXd::Zero(one[0].cols());
   for (std::size_t k = 0; k < one.size(); ++k) {
@@ -129,7 +129,7 @@ Eigen::VectorXd differences(const Motion& one, const Motion& other) {
   return found;
 }
 
-/// Of the joints' reactions, as a share of the largest.
+/// Difference of the joints' reactions, as a fraction of the largest.
 double difference_of_reactions(const History& one, const History& other, Eigen::Index outputs) {
   std::array<double, 2> off{}, largest{};
   for (std::size_t k = 0; k < one.joints.size(); ++k) {
@@ -148,7 +148,7 @@ bool says(const std::string& text, const char* words) {
   return text.find(words) != std::string::npos;
 }
 
-/// Runs of one model, and what is wrong with them.
+/// Runs of one model, and the errors found in them.
 struct Comparison {
   Comparison(const Mechanism& source, const Model& given)
       : mechanism(source),
@@ -195,7 +195,8 @@ struct Comparison {
     return found.str();
   }
 
-  /// Infinite where a guard ends the run, as it should at a coarse tolerance.
+  /// Error of the implicit method; infinite if a guard ends the run, as it should at a coarse
+  /// tolerance.
   double implicit_error(double tolerance) const {
     try {
       return off(motion_of(run(model, {.relative_tolerance = tolerance,
@@ -207,8 +208,8 @@ struct Comparison {
     }
   }
 
-  /// A tolerance a 64th is a step a quarter: the error is 16 times less, of which a quarter is
-  /// asked for, at the next 64th where the first was too coarse for its order.
+  /// With a 64th of the tolerance the step is a quarter and the error 16 times less, a quarter of
+  /// which is required; at the next 64th if the first was too coarse for its order.
   std::optional<std::string> implicit_finding() const {
     double coarse = implicit_error(1e-5);
     std::ostringstream found;
@@ -229,7 +230,7 @@ struct Comparison {
   Eigen::Index together;  ///< outputs until twins part
 };
 
-/// What the program says of a model that it does not run to its end, or of what to make of it.
+/// Messages for a model that the program does not run to its end, or warnings on its results.
 bool is_told(const std::string& text) {
   return says(text, "its loads jump at half a turn") ||
          says(text, "no degree of freedom is left") ||

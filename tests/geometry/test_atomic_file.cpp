@@ -29,18 +29,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the calls of the system below do instead of their work.
+/// State of the simulated system calls below.
 struct System {
   std::vector<std::string> log;   ///< calls so far, in order
   std::string failing;            ///< the call that fails with EIO
-  bool has_unnamed_files = true;  ///< of the file system
+  bool has_unnamed_files = true;  ///< property of the file system
 };
 System& the_system() {
   static System system;
   return system;
 }
 
-/// Notes a call. @return whether it is to fail
+/// Logs a call.
+/// @return true if it must fail
 bool fails(const std::string& call) {
   the_system().log.push_back(call);
   if (the_system().failing == call) errno = EIO;
@@ -49,7 +50,7 @@ bool fails(const std::string& call) {
 
 }  // namespace
 
-// These take the place of the C library's in this program.
+// These replace the C library's functions in this program.
 extern "C" int open(const char* path, int flags, ...) {
   va_list arguments;
   va_start(arguments, flags);
@@ -86,7 +87,7 @@ void write_plain(const fs::path& path) { write_text(path, std::string(100000, 'x
 
 const std::vector<std::function<void(const fs::path&)>> kWriters = {write_hdf5, write_plain};
 
-/// A folder with one file; each test leaves the calls of the system as they were.
+/// A folder with one file; each test restores the system calls.
 struct Place {
   Place() {
     write_text(path, kBefore);
@@ -105,7 +106,7 @@ struct Place {
   fs::path path = folder / "result";
 };
 
-/// As on a full disk: files of this process do not grow beyond a size.
+/// Simulates a full disk: files of this process do not grow beyond a size.
 class SizeLimit {
  public:
   explicit SizeLimit(std::size_t bytes) {
@@ -130,7 +131,8 @@ TEST_CASE("wherever the disk is full, the failure is told and the file before it
     write(place.folder / "whole");
     const std::size_t size = fs::file_size(place.folder / "whole");
     fs::remove(place.folder / "whole");
-    // The last writes, of HDF5's tables and of the hash, are small: close to the end every byte.
+    // The last writes, of HDF5's tables and of the hash, are small: near the end every byte is
+    // tried.
     for (std::size_t room = 0; room < size; room += room + 600 < size ? 497 : 1) {
       INFO(room);
       const SizeLimit limit(room);
@@ -191,7 +193,7 @@ TEST_CASE("a file under way is seen by nobody and follows no link") {
   for (const bool has_unnamed_files : {true, false}) {
     const Place place;
     the_system().has_unnamed_files = has_unnamed_files;
-    // Names that a writer could think of, all taken by links to a file of someone else.
+    // All names that a writer could try are taken by links to a foreign file.
     const std::string own = ".flexneck-" + std::to_string(::getpid()) + "-";
     for (const std::string& name : {std::string("new.part"), own + "0.part", own + "1.part"})
       fs::create_symlink(place.path, place.folder / name);

@@ -25,7 +25,7 @@ TEST_CASE("memory is what the machine has, less what control groups of either ve
   put(root / "proc/meminfo", "MemTotal:       32000 kB\nMemAvailable:    8000 kB\n");
   CHECK(available_memory(root.path()) == 8000 * 1024);
 
-  // A group's limit, its own and those above it, less what it uses but for cached files.
+  // The limits of a group and of those above it, less the memory it uses except for cached files.
   put(root / "proc/self/cgroup", "0::/batch/job\n");
   put(root / "sys/fs/cgroup/batch/memory.max", "6000000\n");
   put(root / "sys/fs/cgroup/batch/memory.current", "1000000\n");

@@ -67,11 +67,11 @@ TEST_CASE("one flipped bit anywhere in a file of ours is found before HDF5 reads
   const std::string sound = bytes_of(folder / "a.h5");
   CHECK(trust_of(folder / "a.h5") == Trust::verified);
   CHECK(Hdf5Reader(folder / "a.h5", kFormat).trust() == Trust::verified);
-  // The hash is that of all that follows the block, as its text says.
+  // The hash covers all that follows the block, as its text says.
   CHECK(sound.substr(0, 75) ==
         "flexneck, XXH3-128 of all after 512 bytes: " + hash_of_text(sound.substr(kHashBlockSize)));
   CHECK(carried_hash(folder / "a.h5") == computed_hash_of_file(folder / "a.h5"));
-  // Without the mark at its beginning it is anybody's file, with the same content.
+  // Without the mark at its beginning it is a foreign file with the same content.
   std::size_t accepted = 0;
   for (std::size_t k = 0; k < sound.size(); k += k < kHashBlockSize ? 1 : 7) {
     std::string flipped = sound;

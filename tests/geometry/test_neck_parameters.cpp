@@ -16,7 +16,7 @@ using Catch::Matchers::Contains;
 using testing::kInch;
 using testing::neck_parameters;
 
-/// Text of the refusal of set C after a change.
+/// Text of the refusal of parameter set C after a change.
 std::string refusal(const std::function<void(NeckParameters&)>& change) {
   NeckParameters neck = neck_parameters("C");
   change(neck);

@@ -18,7 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using Action = SignalCleanup::Action;
 
-/// Ends a process of its own by a signal, in the middle of some work. @return its end for waitpid
+/// Ends a child process by a signal, in the middle of some work.
+/// @return its status from waitpid
 int status_after(int signal, const std::function<void()>& work) {
   const pid_t process = ::fork();
   if (process == 0) {
@@ -37,7 +38,7 @@ bool is_killed_by(int signal, int status) {
   return WIFSIGNALED(status) && WTERMSIG(status) == signal;
 }
 
-/// A folder of folders with more entries than one call of the system lists.
+/// Fills a folder with folders and more entries than one system call lists.
 void fill(const fs::path& folder) {
   fs::create_directories(folder / "some" / "more");
   for (int k = 0; k < 300; ++k) {

@@ -67,7 +67,7 @@ TEST_CASE("a number within a unit, a comma and what measures something else are 
     CHECK_THROWS_AS(parse_quantity(text, si_unit), InputError);
   }
   CHECK_THROWS_AS(parse_quantity("1 " + std::string(100000, 'm'), "m"), InputError);
-  // What is meant is taken, as it is written in tables and textbooks.
+  // Units are accepted as tables and textbooks write them.
   const auto near = [](double value) { return Approx(value).epsilon(kRounding).margin(0); };
   CHECK(parse_quantity("3 kg m^2", "kg*m^2") == near(3));
   CHECK(parse_quantity("3 kg.m2", "kg*m^2") == near(3));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Evaluations and outputs of the equations of motion, for callgrind to count
-// (instructions_test.py). Each part is 20 or 40 of them, so that their difference is 20 without
-// what the first ones take.
+// (instructions_test.py). Each part has 20 or 40 of them, so that the difference of both is the
+// cost of 20 without that of the first ones.
 #include <cstdio>
 #include <string>
 
@@ -20,7 +20,7 @@ constexpr double kStep_s = 1e-5;
 /// callgrind begins a new part of its counts here (--dump-before).
 extern "C" [[gnu::noinline]] void begin_part(const char* name) { std::puts(name); }
 
-/// Follows the motion a little, so that no state comes twice.
+/// Evaluates while advancing the state a little, so that no state occurs twice.
 void evaluate(Equations& equations, VectorXd state, int count) {
   VectorXd rate = VectorXd::Zero(state.size());
   for (int k = 0; k < count; ++k) {
@@ -67,7 +67,7 @@ Model head_on_neck() {
   return build.model;
 }
 
-/// Every kind of body, joint and force, with joint coordinates of zero.
+/// A model with every kind of body, joint and force, with joint coordinates of zero.
 Model forest() {
   Model model = flexneck::testing::forest(true);
   const tree::Tree tree(model);

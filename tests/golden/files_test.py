@@ -26,7 +26,7 @@ FREQUENCIES_HZ = [70.46518917, 104.54391721, 661.63974471, 927.80758671, 1604.93
 SYSTEM_HZ = [35.57746266, 52.98686161]
 TIP_M = 0.0005216140161572053  # the largest y of the tip
 FOOT_NM = -22.357996798798375  # the least moment about z of the foot
-# Exported files, and what is zero in them: rounding in m, N/m, kg.
+# Exported files, and the rounding in m, N/m, kg below which their numbers are zero.
 EXPORTS = {"bar.inp": 1e-12, "bar.msh": 1e-12, "bar.dat": 1e-12,
            "bar_K.mtx": 1e-6, "bar_M.mtx": 1e-12, "bar_nodes.mtx": 1e-12}
 
@@ -67,7 +67,7 @@ class Files(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
-        # What files name beside themselves lies as deep as it did.
+        # Paths that the files contain stay valid: the folder lies as deep as before.
         self.root = Path(folder.name)
         self.files = self.root / "tests/golden/files"
         shutil.copytree(FILES, self.files)

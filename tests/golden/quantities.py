@@ -7,14 +7,14 @@ import json
 import h5py
 import numpy as np
 
-# Datasets of modes.h5 that do not depend on the shapes of modes, and how their numbers share a scale.
-# "own": each has its own; "all": that of the largest; "blocks": that of the largest in a 3 x 3 block
-# (translations, rotations and their coupling).
+# Datasets of modes.h5 that do not depend on the shapes of modes, and the scale of their numbers.
+# "own": each has its own; "all": that of the largest; "blocks": that of the largest in a 3 x 3
+# block (translations, rotations and their coupling).
 VALUES = {"frequencies": "own", "invariants/mass": "own", "invariants/S1": "all",
           "invariants/J0": "all", "invariants/Maa": "all", "basis/energy_fractions": "all"}
 INTERFACE_VALUES = {"position": "all", "compliance": "blocks"}
 ATTACHED_VALUES = {"frequencies": "own", "mass_matrix": "blocks"}
-# Those that do, and their axes that run over the modes.
+# Datasets that depend on the shapes, and their axes that run over the modes.
 SHAPES = {"invariants/S2": [1], "invariants/N0": [1], "invariants/G0": [0],
           "invariants/G": [0, 1], "invariants/N": [0, 1]}
 INTERFACE_SHAPES = {"translation": [1], "rotation": [1]}

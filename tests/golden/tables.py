@@ -5,8 +5,8 @@ import csv
 import math
 from dataclasses import dataclass
 
-# A channel that is smaller than this share of the largest one of its unit in its file is compared on
-# the scale of that share: what symmetry makes zero is rounding.
+# Fraction of the largest channel of a unit in a file that is the scale of smaller channels: values
+# that symmetry makes zero are rounding.
 FLOOR = 1e-3
 TIME_TOLERANCE_S = 1e-9
 VALUES = ["name", "unit", "numbers"]

@@ -157,7 +157,7 @@ class Installed(unittest.TestCase):
         code, text = run(at / "pendulum", at=self.folder)
         self.assertEqual(code, 0, text)  # it compares with the closed forms
         self.assertIn("by energy", text)
-        # The same object with what pkg-config says.
+        # The same object, built with the flags of pkg-config.
         pc = self.one("flexneck-multibody.pc").parent
         code, flags = run("pkg-config", "--cflags", "--libs", "flexneck-multibody", at=at,
                           PKG_CONFIG_PATH=str(pc))

@@ -8,8 +8,8 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# In the order in which data passes through; the folders that later rooms may include, but for
-# pipeline/, which knows every stage.
+# The folders in the order in which data pass through, each with those of its folders that later
+# ones may include, except for pipeline/, which knows every stage.
 DOORS = {
     "geometry": {"foundation"},
     "mesher": {"mesh", "partition", "exchange"},

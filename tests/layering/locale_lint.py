@@ -21,7 +21,7 @@ INSTEAD = {
         "ascii.h",
     r"setlocale": "the locale is the program's around the library",
 }
-# Hexadecimal digits alone; a stream with the locale of C.
+# These files write hexadecimal digits only, or use a stream with the locale of C.
 EXCEPT = {"geometry/foundation/content_hash.cpp", "geometry/foundation/printable.cpp",
           "pipeline/document/toml_source.cpp"}
 

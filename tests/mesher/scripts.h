@@ -9,7 +9,7 @@
 
 namespace flexneck::testing {
 
-/// A gmsh script of one or two hexahedral blocks, made to size by its constants.
+/// A gmsh script of one or two hexahedral blocks, with dimensions given by its constants.
 inline const char* const kBrick = R"(
 DefineConstant[ width = {1, Name "Brick/width"}, cells = {2, Name "cells"}, bare = 3 ];
 Point(1) = {0, 0, 0};

@@ -34,7 +34,7 @@ Mesh box_of(int x, int y, int z) {
   return testing::box({x, y, z}, Eigen::Vector3d(x, y, z), kMaterial).make();
 }
 
-/// Number of pixels that are not background.
+/// Number of pixels that differ from the background.
 std::ptrdiff_t covered(const Raster& picture) {
   const auto pixels = picture.pixels();
   return std::count_if(pixels.begin(), pixels.end(),
@@ -112,8 +112,8 @@ TEST_CASE("a box seen from the front covers its height times its width") {
   const BodyPicture plain{.displacement_m = {}, .field = {}, .element_edges = false};
   const View front{{1, 0, 0}};
   const Raster picture = draw_body(mesh, surface_of(mesh), plain, front, 200, 200);
-  // Four high fill the picture but for the margins of 5 %: 180 pixels, half as wide. Lines along
-  // the rim are a pixel wide.
+  // A height of four fills the picture except for the margins of 5 %: 180 pixels, half as wide.
+  // Lines along the rim are one pixel wide.
   CHECK(covered(picture) >= 180 * 90);
   CHECK(covered(picture) <= 182 * 92);
 }

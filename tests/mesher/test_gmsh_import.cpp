@@ -18,8 +18,8 @@ using testing::import_options;
 
 constexpr double kRounding = 1e-12;
 
-/// Two boxes of 2 x 1 x 1 on one another with a common face, tetrahedra of second order, in every
-/// format that gmsh writes; lengths in `unit`s.
+/// Writes two boxes of 2 x 1 x 1, one above the other with a common face, with tetrahedra of second
+/// order, in every format that gmsh writes; lengths in `unit`s.
 void write_boxes(const Files& files, const std::vector<std::string>& names, double unit = 1) {
   const GmshSession session;
   gmsh::model::occ::addBox(0, 0, 0, 2 * unit, unit, unit, 1);
@@ -48,8 +48,8 @@ void write_boxes(const Files& files, const std::vector<std::string>& names, doub
   }
 }
 
-/// Two unit cubes side by side: one of hexahedra, the other left to gmsh, which puts pyramids on
-/// the quadrilaterals between them and fills the rest with tetrahedra.
+/// Writes two unit cubes side by side: one of hexahedra, the other left to gmsh, which puts
+/// pyramids on the quadrilaterals between them and fills the rest with tetrahedra.
 void write_hexahedra_beside_tetrahedra(const Files& files) {
   const GmshSession session;
   gmsh::model::occ::addBox(0, 0, 0, 1, 1, 1, 1);
@@ -80,7 +80,7 @@ void write_hexahedra_beside_tetrahedra(const Files& files) {
   gmsh::write(files / "serendipity.msh");
 }
 
-/// Volume and area are exact whatever the order of nodes in the file; a wrong one folds elements.
+/// Checks volume and area, which are exact for a right order of nodes; a wrong one folds elements.
 void check_boxes(const Mesh& mesh, const std::string& lower, const std::string& floor) {
   REQUIRE(mesh.blocks.size() == 2);
   CHECK(mesh.blocks[0].part == lower);

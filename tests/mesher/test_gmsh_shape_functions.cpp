@@ -5,8 +5,8 @@
 #include "mesher/gmsh/gmsh_session.h"
 #include "mesher/mesh/shape_functions.h"
 
-// gmsh 4.8 gives the closures of a prism's faces back by the wrong operator delete, for which the
-// address sanitizer ends the program, unless this function of its says otherwise.
+// gmsh 4.8 frees the closures of a prism's faces with the wrong operator delete, for which the
+// address sanitizer ends the program unless this function of the sanitizer overrides it.
 extern "C" const char* options_of_address_sanitizer() __asm__("__asan_default_options");
 extern "C" const char* options_of_address_sanitizer() { return "alloc_dealloc_mismatch=0"; }
 

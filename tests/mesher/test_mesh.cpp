@@ -215,7 +215,7 @@ TEST_CASE("elements that are inverted, folded in a corner or flat are refused") 
   for (auto& node : inverted.nodes) node[0] = -node[0];
   CHECK_THROWS_AS(require_sound_elements(inverted), ComputationError);
 
-  // A corner pushed along its edge, past the sixth of its length that a midside node allows: the
+  // A corner moved along its edge, beyond the sixth of its length that a midside node allows: the
   // determinant is negative there and positive at every Gauss point.
   Mesh folded = testing::small_mesh();
   folded.nodes[44] = {0.65, 1, 2};

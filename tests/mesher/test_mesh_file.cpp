@@ -69,7 +69,7 @@ TEST_CASE("an unsound mesh is not written") {
 TEST_CASE("slits, partitions and the node order return from the file") {
   const TemporaryFolder folder;
   MeshFile out{testing::small_mesh(), {}};
-  // The upper block gets a copy of the corner node 18, which lies between the two.
+  // The upper block gets a copy of the corner node 18, which lies between the two blocks.
   out.mesh.nodes.push_back(out.mesh.nodes[18]);
   out.mesh.blocks[0].nodes[0] = 45;
   out.mesh.slits = {{"cut", true, {18}, {45}, {{0, 0, 1}}, {0.125}}};

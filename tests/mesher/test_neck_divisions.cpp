@@ -20,7 +20,8 @@ namespace {
 using geometry::NeckDivisions;
 using testing::neck_parameters;
 
-/// As in test_neck_mesh.cpp: what second-order elements of 30 degrees miss of a sector.
+/// Relative error of a sector's area with second-order elements of 30 degrees, as in
+/// test_neck_mesh.cpp.
 constexpr double kParabola = 1.6e-4;
 
 Mesh neck_of(const std::string& set, const NeckDivisions& divisions, ElementKind element) {
@@ -88,7 +89,7 @@ TEST_CASE("mass, centre of gravity and inertia in closed form are those of the m
     const Mesh mesh = neck_of(set, {.quadrant = 8}, ElementKind::hex27);
     const RigidBody body = integrated(mesh);
     const geometry::NeckMeasures exact = exact_measures(set, mesh);
-    constexpr double kClose = 3e-5;  // 1/16 of what second moments miss at 30 degrees
+    constexpr double kClose = 3e-5;  // 1/16 of the error of second moments at 30 degrees
     const Eigen::Matrix3d& s = body.second;
     const double length = neck_parameters(set).length;
     CHECK(exact.mass_kg == Approx(body.mass).epsilon(kClose));
@@ -143,7 +144,7 @@ TEST_CASE("volumes converge at the order of the elements, from less than 1e-3 at
     double order;
     double largest_error;
   };
-  // 8-node elements make a polygon of every circle. The next term of the series of the error
+  // 8-node elements make a polygon of every circle. The next term in the series of the error
   // changes the ratio by a few per cent.
   for (const auto& [kind, order, largest] : {Expected{ElementKind::hex27, 4, kParabola},
                                              {ElementKind::hex20, 4, kParabola},

@@ -31,15 +31,15 @@ const std::vector<std::string> kParts = {"base_plate", "rubber_1", "plate_1",
                                          "rubber_2",   "plate_2",  "rubber_3",
                                          "plate_3",    "rubber_4", "top_plate"};
 
-/// A parabola through three points of an arc of 30 degrees, the widest element that an offset of
-/// 0.4 in gives at four divisions a quadrant, misses 1.5e-4 of the sector's area.
+/// Relative error of a sector's area by a parabola through three points of an arc of 30 degrees,
+/// 1.5e-4; an offset of 0.4 in gives elements of up to this width at four divisions per quadrant.
 constexpr double kParabola = 1.6e-4;
 
 double annulus_m2(double outer_diameter, double inner_diameter) {
   return M_PI / 4 * (outer_diameter * outer_diameter - inner_diameter * inner_diameter);
 }
 
-/// pi / 4 (D^2 - d^2) h of each layer; shifted circles have the same area.
+/// Volumes pi / 4 (D^2 - d^2) h of the layers; shifted circles have the same area.
 std::vector<double> closed_form_volumes(const NeckParameters& neck) {
   const double h = geometry::rubber_height(neck);
   const auto plate = [&](double thickness) {
@@ -108,7 +108,7 @@ TEST_CASE("each part of the neck has the volume and mass of its cylinder less th
 TEST_CASE("rubber sections are shifted forward by their offsets, plates and hole are centred") {
   const NeckParameters neck = neck_parameters("C");
   const Mesh mesh = neck_mesh("C");
-  // A shifted disc less a centred hole: x = offset D^2 / (D^2 - d^2).
+  // Centroid of a shifted disc less a centred hole: x = offset D^2 / (D^2 - d^2).
   const auto rubber_x = [&](double diameter, double offset) {
     return offset * annulus_m2(diameter, 0) / annulus_m2(diameter, neck.hole_diameter);
   };
@@ -145,7 +145,8 @@ TEST_CASE("the default neck has 26400 degrees of freedom and well-shaped element
   for (const char* set : {"A", "B", "C", "C'"}) {
     const MeshSummary summary = summarise(neck_mesh(set));
     CHECK(summary.degrees_of_freedom == 26400);
-    // Shear of the plates between shifted circles is the geometry's own; C has most, 56 degrees.
+    // The plates are sheared between shifted circles by the geometry itself; set C most, by 56
+    // degrees.
     CHECK(summary.smallest_scaled_jacobian > std::cos(57 * M_PI / 180));
   }
 }

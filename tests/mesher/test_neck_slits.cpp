@@ -19,7 +19,8 @@ using geometry::NeckSlits;
 using geometry::SlitState;
 using testing::neck_parameters;
 
-/// A parabola through three points of an arc of 30 degrees misses 1.5e-4 of its sector's area.
+/// Relative error of a sector's area by a parabola through three points of an arc of 30 degrees,
+/// 1.5e-4.
 constexpr double kParabola = 1.6e-4;
 
 Mesh slit_neck(const std::string& set, const NeckSlits& slits, const NeckDivisions& divisions,
@@ -33,7 +34,7 @@ Mesh slit_neck(const std::string& set, const NeckSlits& slits, const NeckDivisio
   return mesh_script(options, {});
 }
 
-/// Area of the circle's part with x > 0.
+/// Area of a circle's part with x > 0.
 double front_of_circle_m2(double radius, double centre_x) {
   return radius * radius * (M_PI - std::acos(centre_x / radius)) +
          centre_x * std::sqrt(radius * radius - centre_x * centre_x);
@@ -43,7 +44,7 @@ struct Circle {
   double radius, x;
 };
 
-/// The rubber's circle, and the one that the slit ends on: `depth` of the way to the hole.
+/// The rubber's circle, and that of the slit's inner edge, at `depth` of the way to the hole.
 std::pair<Circle, Circle> edges_of_slit(const NeckParameters& neck, const std::string& part,
                                         double depth) {
   for (const geometry::NeckLayer& layer : geometry::layers_of(neck)) {
@@ -67,7 +68,7 @@ TEST_CASE("slits have the area of the front half between their circle and the ri
   const NeckDivisions divisions{.rubber_layers = 2};
   for (const double depth : {0.01, 0.35, 0.99}) {
     for (const ElementKind kind : {ElementKind::hex27, ElementKind::hex20, ElementKind::tet10}) {
-      // Rings thinner than the sagitta of their arcs fold tetrahedra over, but no hexahedra.
+      // Rings thinner than the sagitta of their arcs fold tetrahedra, but not hexahedra.
       if (kind != ElementKind::hex27 && depth != 0.35) continue;
       const std::string set = depth < 0.5 ? "A" : "C";
       INFO("set " << set << ", depth " << depth << ", " << name_of(kind));
@@ -96,7 +97,7 @@ TEST_CASE("slits have the area of the front half between their circle and the ri
 }
 
 TEST_CASE("slits are doubled from the rim to their circle, between -90 and 90 degrees") {
-  // Of six rings, 0.5 leaves three outside: 2 * 3 nodes outwards, 4 * 4 - 1 round the front.
+  // Out of six rings, 0.5 leaves three outside: 2 * 3 nodes outwards, 4 * 4 - 1 around the front.
   const NeckDivisions divisions{
       .quadrant = 4, .inner_ring = 6, .rubber_layers = 2, .ring_grading = 1};
   const Mesh mesh = slit_neck("C", {.state = SlitState::open, .depth = 0.5}, divisions);

@@ -33,7 +33,7 @@ Graph grid(int n) {
   return graph;
 }
 
-/// Entries of the Cholesky factor's lower half, by eliminating vertex after vertex.
+/// Number of entries of the Cholesky factor's lower triangle, by eliminating vertex after vertex.
 std::size_t factor_entries(const Graph& graph, const Order& order) {
   const std::size_t n = order.size();
   std::vector<std::size_t> place(n);
@@ -50,7 +50,7 @@ std::size_t factor_entries(const Graph& graph, const Order& order) {
   for (std::size_t k = 0; k < n; ++k) {
     entries += later[k].size();
     if (later[k].empty()) continue;
-    // What remains of the vertex's neighbourhood becomes a clique; its first member carries it on.
+    // The vertex's remaining neighbourhood becomes a clique; its first member stores it.
     const std::size_t next = *later[k].begin();
     later[next].insert(std::next(later[k].begin()), later[k].end());
   }
@@ -74,10 +74,10 @@ TEST_CASE("nested dissection fills a grid's factor far less than the natural ord
   Order natural = order;
   std::sort(natural.begin(), natural.end());
   const std::size_t banded = factor_entries(graph, natural);
-  // Row by row, column k reaches n vertices ahead: fewer in the first row and in the last.
+  // Row by row, column k couples with n vertices ahead: fewer in the first row and in the last.
   CHECK(banded ==
         kSize * kSize * (kSize + 1) - kSize * (kSize + 1) / 2 - (kSize - 1) * (kSize - 2) / 2);
-  // George's dissection leaves 31/4 n^2 log2 n at most (SIAM J. Numer. Anal. 10 (1973) 345), here
+  // George's dissection leaves at most 31/4 n^2 log2 n (SIAM J. Numer. Anal. 10 (1973) 345), here
   // 0.7 of the band; METIS's separators are better.
   CHECK(factor_entries(graph, order) < banded / 3);
 }

@@ -16,7 +16,7 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-/// The small mesh with its heights as powers of a number: z^p.
+/// The small mesh with its heights raised to a power: z^p.
 Mesh with_power(double p) {
   Mesh mesh = testing::small_mesh();
   for (auto& node : mesh.nodes) node[2] = std::pow(node[2], p);

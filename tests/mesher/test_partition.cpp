@@ -45,7 +45,7 @@ TEST_CASE("a cube is halved by hardly more than a plane of sides") {
 
 TEST_CASE("the cut counts the pairs of neighbours on two processes") {
   const Mesh cube = box_of(2, 2, 2);
-  // Elements follow one another in x, y, z: a checkerboard separates all twelve pairs.
+  // Elements are numbered along x, y, z: a checkerboard separates all twelve pairs.
   const ElementPartition checkerboard{2, {0, 1, 1, 0, 1, 0, 0, 1}};
   CHECK(quality_of(cube, checkerboard).edge_cut == 12);
   const ElementPartition uneven{2, {1, 0, 0, 0, 0, 0, 0, 0}};

@@ -11,7 +11,7 @@
 namespace flexneck::mesher {
 namespace {
 
-/// Unit cube of three layers of parts: two of elements, one, one.
+/// Unit cube of three parts: two layers of elements, one and one.
 Mesh three_parts() {
   testing::BlockMesh block;
   block.x_divisions = 2;

@@ -21,7 +21,7 @@ Mesh box(std::array<int, 3> divisions, bool distorted = false) {
   return block.make();
 }
 
-/// Positions on a grid of 1e-9.
+/// Positions rounded to 1e-9.
 std::set<std::array<long, 3>> places(const Mesh& mesh) {
   std::set<std::array<long, 3>> result;
   for (const auto& x : mesh.nodes) {
@@ -30,7 +30,7 @@ std::set<std::array<long, 3>> places(const Mesh& mesh) {
   return result;
 }
 
-/// Whether each node of each element hangs on nodes of the element's parent alone.
+/// Returns whether each node of each element depends only on nodes of the element's parent.
 bool hang_on_parents(const Mesh& mesh, const RefinedMesh& fine) {
   std::vector<std::set<std::int32_t>> parents;
   for (const ElementBlock& block : mesh.blocks) {
@@ -94,8 +94,8 @@ TEST_CASE("neighbours share the new nodes: a refined box has those of a box of h
     CHECK(fine.nodes.size() == expected.nodes.size());
     if (shape_of(kind) == ReferenceShape::hexahedron) CHECK(places(fine) == places(expected));
   }
-  // Tetrahedra: the octahedra inside are cut otherwise, but no place has two nodes. Nor has any of
-  // pyramids, whose second refinement meets the tetrahedra of the first.
+  // Tetrahedra: the octahedra inside are divided differently, but no position has two nodes. The
+  // same holds for pyramids, whose second refinement meets the tetrahedra of the first.
   for (const ElementKind kind : {ElementKind::tet10, ElementKind::pyramid5, ElementKind::pyramid13,
                                  ElementKind::pyramid14}) {
     const Mesh fine = refine(refine(testing::with_kind(box({2, 1, 2}), kind)).mesh).mesh;
@@ -133,7 +133,7 @@ TEST_CASE("a set of single nodes stays as it is, and a slit keeps its pairs") {
   const Slit& before = mesh.slits.front();
   const Slit& after = fine.mesh.slits.front();
   CHECK(after.tied);
-  // A front of n rows of q nodes beside the tip becomes one of 2n rows of 2q - 1.
+  // A front of n rows of q nodes, without the tip, becomes one of 2n rows of 2q - 1.
   CHECK(after.lower.size() > 3 * before.lower.size());
   REQUIRE(after.upper.size() == after.lower.size());
   for (std::size_t p = 0; p < after.lower.size(); ++p) {
@@ -141,7 +141,7 @@ TEST_CASE("a set of single nodes stays as it is, and a slit keeps its pairs") {
     CHECK(fine.mesh.nodes[static_cast<std::size_t>(after.lower[p])] ==
           fine.mesh.nodes[static_cast<std::size_t>(after.upper[p])]);
   }
-  // Every place with two nodes is one of the pairs.
+  // Every position with two nodes is one of the pairs.
   CHECK(places(fine.mesh).size() + after.lower.size() == fine.mesh.nodes.size());
 }
 

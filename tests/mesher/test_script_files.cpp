@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 void write(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
 
-/// Names of the files noted for "main.geo" in a folder, whose text is given.
+/// Names of the files noted for "main.geo" with the given text in a folder.
 std::set<std::string> names_for(const TemporaryFolder& folder, const std::string& text) {
   write(folder / "main.geo", text);
   const FilesRead reads;

@@ -21,7 +21,8 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(text.find(from), from.size(), to);
 }
 
-/// Gauss: the flux of x / 3 through a closed surface is the volume inside, if normals point out.
+/// Volume by the divergence theorem: the flux of x / 3 through a closed surface, if normals point
+/// out.
 double enclosed_volume(const Mesh& mesh, const FaceBlock& faces) {
   const Quadrature rule = gauss_rule(faces.kind, 4);
   const ShapeTable table = tabulate(faces.kind, rule.points);
@@ -78,7 +79,7 @@ TEST_CASE("constants override the script's values by the last part of their name
   const Mesh mesh = script.mesh();
   CHECK(mesh.blocks[0].size() == 12);
   CHECK(measure(mesh, mesh.blocks[0]).volume_m3 == Approx(2.5 * 2 * 3).epsilon(kRounding));
-  // Nothing of one run is left for the next.
+  // No state of one run affects the next.
   CHECK(ScriptFixture(kBrick).mesh().blocks[0].size() == 8);
 }
 
@@ -191,7 +192,7 @@ Physical Volume("brick") = {1};
   const Mesh mesh = script.mesh();
   CHECK(mesh.blocks[0].kind == ElementKind::tet10);
   CHECK(measure(mesh, mesh.blocks[0]).volume_m3 == Approx(1).epsilon(kRounding));
-  // Tetrahedra that are asked for are made against what the script recombines.
+  // If tetrahedra are asked for, the script's recombination is ignored.
   ScriptFixture recombined(R"(
 SetFactory("OpenCASCADE");
 Box(1) = {0, 0, 0, 1, 1, 1};

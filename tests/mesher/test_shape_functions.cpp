@@ -146,7 +146,7 @@ TEST_CASE("shape functions interpolate the polynomials of their element") {
 
 TEST_CASE("derivatives agree with central differences of the values") {
   // Central differences of quadratics are exact; only rounding over the step remains. Those of the
-  // pyramid's rational functions have an error, of the square of the step.
+  // pyramid's rational functions have an error of the square of the step.
   constexpr double kStep = 1e-3;
   constexpr double kDifferenceRounding = 1e-12;
   constexpr double kDifferenceError = 3 * kStep * kStep;

@@ -55,16 +55,16 @@ struct Shape {
   std::string name;
   int constant;
   std::optional<ElementKind> element;
-  /// Doubled nodes of a cut of m x k quadrilaterals or twice as many triangles.
+  /// Number of doubled nodes of a cut of m x k quadrilaterals or twice as many triangles.
   std::size_t (*doubled)(std::size_t m, std::size_t k);
-  double tip_share;  ///< of a face next to the tip, int N dA of its nodes there
+  double tip_share;  ///< share of a face next to the tip, int N dA of its nodes there
 };
 
 std::size_t all_nodes(std::size_t m, std::size_t k) { return 2 * m * (2 * k + 1); }
 std::size_t without_centres(std::size_t m, std::size_t k) { return all_nodes(m, k) - m * k; }
 std::size_t corners(std::size_t m, std::size_t k) { return m * (k + 1); }
 
-/// Simpson's rule gives the edge a sixth of a quadratic face, whatever its kind.
+/// By Simpson's rule the tip's share of a quadratic face is a sixth, whatever its kind.
 const std::vector<Shape> kShapes = {
     {"hex27", 0, ElementKind::hex27, all_nodes, 1.0 / 6},
     {"hex20", 0, ElementKind::hex20, without_centres, 1.0 / 6},
@@ -97,7 +97,7 @@ std::vector<std::int32_t> all_elements(const Mesh& mesh) {
   return nodes;
 }
 
-/// Calls what(nodes of the element, block) for each.
+/// Calls what(nodes of the element, block) for each element.
 template <class What>
 void for_each_element(const Mesh& mesh, const What& what) {
   for (const ElementBlock& block : mesh.blocks) {
@@ -121,7 +121,7 @@ std::ptrdiff_t shared_sides(const Mesh& mesh) {
   return std::count_if(owners.begin(), owners.end(), [](const auto& o) { return o.second == 2; });
 }
 
-/// Bodies that hang together by common nodes.
+/// Number of bodies that are connected by common nodes.
 std::size_t bodies(const Mesh& mesh) {
   std::vector<std::size_t> label(mesh.nodes.size());
   std::iota(label.begin(), label.end(), std::size_t{0});
@@ -159,7 +159,7 @@ TEST_CASE("a crack doubles the nodes of its faces but those of its tip, in every
     CHECK(slit.lower.size() == shape.doubled(3, 2));
     CHECK(mesh.nodes.size() == whole.nodes.size() + slit.lower.size());
 
-    // Pairs in order: the copies are the last nodes, their originals ascend.
+    // Pairs are ordered: the copies are the last nodes, their originals ascend.
     CHECK(std::is_sorted(slit.lower.begin(), slit.lower.end()));
     for (std::size_t p = 0; p < slit.upper.size(); ++p) {
       CHECK(static_cast<std::size_t>(slit.upper[p]) == whole.nodes.size() + p);
@@ -198,8 +198,8 @@ TEST_CASE("a crack parts the elements below from those above, and nothing else")
     }
     CHECK(closed == all_elements(whole));
 
-    // Lower nodes belong to elements of z < 0 only, upper ones to those of z > 0, though "above"
-    // comes first in the mesh: so does the side of the first element, which is the lower one.
+    // Lower nodes belong to elements with z < 0 only, upper ones to those with z > 0, though
+    // "above" comes first in the mesh: the lower side is that of the first element.
     const std::set<std::int32_t> lower(slit.lower.begin(), slit.lower.end());
     const std::set<std::int32_t> upper(slit.upper.begin(), slit.upper.end());
     for_each_element(mesh, [&](std::span<const std::int32_t> nodes, const ElementBlock& block) {
@@ -245,7 +245,7 @@ TEST_CASE("faces follow their elements and node sets hold what they held") {
     with_loose_set.node_sets.push_back({"loose", whole.node_set("cut").nodes});
     const Mesh mesh = opened(with_loose_set);
 
-    // Every face of the outside is the side of one element still; inside, of two.
+    // Every outside face is still a side of one element; every inside face of two.
     const auto owners = owners_of_sides(mesh);
     for (const auto& [name, count] : {std::pair("outside", 1), {"inner_wall", 2}, {"cut", 1}}) {
       CHECK(area_m2(mesh, mesh.face_set(name)) ==
@@ -282,14 +282,15 @@ TEST_CASE("on a curved cut the normals are the surface's own") {
     Block block(shape);
     block.options.constants["along"] = 8;
     Mesh mesh = block.mesh();
-    // Rolled up about the line x = 0, z = -2, so that z = 0 becomes a cylinder of radius 2.
+    // The mesh is rolled up about the line x = 0, z = -2, so that z = 0 becomes a cylinder of
+    // radius 2.
     for (auto& x : mesh.nodes) {
       x = {(x[2] + 2) * std::sin(x[0] / 2), x[1], (x[2] + 2) * std::cos(x[0] / 2) - 2};
     }
     mesh = opened(mesh);
     const Slit& slit = mesh.slits[0];
-    // Chords turn by 0.05 rad from element to element: their own normals err by half of it at a
-    // node at the mouth; quadratic faces err by its square at most.
+    // Chords rotate by 0.05 rad from element to element: their own normals are wrong by half of it
+    // at a node at the mouth; those of quadratic faces by its square at most.
     const double within = order_of(mesh.blocks[0].kind) == 1 ? 0.026 : 0.0025;
     for (std::size_t p = 0; p < slit.lower.size(); ++p) {
       const auto& x = mesh.nodes[static_cast<std::size_t>(slit.lower[p])];

@@ -20,9 +20,9 @@
 #include "multibody/tree/tree_start.h"
 #include "tests/support/point_mass_body.h"
 
-// The linker sends every call of malloc, calloc (which the compiler makes of malloc and zeros) and
-// operator new in our objects, those of Eigen and of containers included, through here
-// (tests/multibody/CMakeLists.txt).
+// The linker redirects every call of malloc, calloc (to which the compiler converts malloc and
+// zeros) and operator new in the program's objects, those of Eigen and of containers included, to
+// these functions (tests/multibody/CMakeLists.txt).
 namespace {
 std::atomic<long> allocations{0};
 }
@@ -56,7 +56,7 @@ namespace {
 
 constexpr StepLimits kLimits{0.05, 1e-10};
 
-/// Every law between two bodies.
+/// Adds springs with every law between two bodies.
 void add_springs(Model& model) {
   Resistance law;
   law.positive.curve = LoadCurve::table({0, 0.1, 0.3}, {0, 5, 6});
@@ -94,11 +94,11 @@ Model neck_and_head(bool stiffens) {
   return model;
 }
 
-/// Steps and outputs of a run whose equations are given.
+/// Checks steps and outputs of a run with given equations.
 void check_no_allocation(TimeIntegrator& integrator,
                          const std::function<void(double, VectorXd&)>& output) {
   VectorXd state = integrator.state();
-  // That the count works at all: copies that the compiler cannot do away with.
+  // Control that the count works: copies that the compiler cannot remove.
   const long before_control = allocations;
   const VectorXd control = state;
   const std::vector<double> other(static_cast<std::size_t>(state.size()));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A chain with every kind of joint and a deformable body flies freely: whatever acts inside of it,
-// its momenta stay, and its energy goes only where the books say.
+// A chain with every kind of joint and a deformable body flies freely: whatever internal forces
+// act, its momenta are constant, and its energy changes only as recorded.
 #include <cmath>
 #include <memory>
 #include <string>
@@ -26,7 +26,7 @@ namespace {
 
 constexpr double kEnd_s = 0.3;
 
-/// Turning as one about the origin: every joint agrees with that.
+/// The chain rotates as one body about the origin, which every joint permits.
 ModelBuilder flying_chain(bool stiffens) {
   RandomNumbers random(83);
   ModelBuilder build;
@@ -76,7 +76,7 @@ Resistance make_resistance() {
   return resistance;
 }
 
-/// One kind of force between bodies.
+/// Adds one kind of force between bodies.
 void add_force(Model& model, int kind) {
   const auto marker = [&](const char* name) { return model.marker_index(name); };
   const auto resist = [&](const JointKind* of, JointCoordinate coordinate) {
@@ -181,7 +181,7 @@ TEST_CASE("No joint and no force between bodies changes the momenta of a free ch
   REQUIRE((end - start).norm() > 1);
   const Momentum before = momentum_of(build.model, solver.formulation, start);
   const Momentum after = momentum_of(build.model, solver.formulation, end);
-  // Steps err by 1e-10 each, some hundred of them.
+  // Some hundred steps have errors of 1e-10 each.
   CHECK((after.linear - before.linear).norm() < 1e-8 * before.linear.norm());
   CHECK((after.angular - before.angular).norm() < 1e-8 * before.angular.norm());
 }

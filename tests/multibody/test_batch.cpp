@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A neck on an arm that is braked more or less.
+/// A neck on an arm with a variable deceleration.
 Model pendulum(double deceleration_m_s2) {
   const TimeTable pulse({0, 0.01, 0.03}, {0, -deceleration_m_s2, 0}, TimeTable::Outside::zero);
   ModelBuilder build =

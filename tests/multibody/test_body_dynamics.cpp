@@ -11,13 +11,13 @@
 #include "tests/support/marker_motion.h"
 #include "tests/support/point_mass_body.h"
 
-// The truth here is a Lagrangian that knows only where the points of a body are. Coordinates are
-// z = (x, phi, a) with the body's rotation A0 exp(~phi). At phi = 0, and only there, zdot is
-// V = (xdot, w, adot) and zddot is Vdot (the right Jacobian and its rate applied to phidot are the
+// The reference is a Lagrangian that knows only the positions of the body's points. Coordinates are
+// z = (x, phi, a) with the body's rotation A0 exp(~phi). At phi = 0, and only there, zdot is V =
+// (xdot, w, adot) and zddot is Vdot (the right Jacobian and its rate applied to phidot are the
 // identity and zero), and a variation of phi is dpi. So at phi = 0 Lagrange's equations
 //   d/dt dL/dzdot - dL/dz = 0   must read   M Vdot - u = 0.
-// With stress stiffening points have second-order displacements too, whose velocity counts against
-// that of the undeformed body alone (section 3a).
+// With stress stiffening points have second-order displacements too, whose velocity counts relative
+// to that of the undeformed body only (section 3a).
 
 using Eigen::Index;
 using Eigen::Matrix3d;
@@ -33,7 +33,7 @@ using namespace flexneck::multibody;
 
 namespace {
 
-/// Differences of order 6 nested three deep at this step leave about 1e-10 of the terms' size.
+/// Step of three nested differences of order 6, which leave about 1e-10 of the terms' size.
 constexpr double kStep = 1e-2;
 constexpr double kTolerance = 1e-8;
 
@@ -93,7 +93,7 @@ class Points {
 
 using Lagrangian = std::function<double(const VectorXd& z, const VectorXd& zdot)>;
 
-/// d/dt dL/dzdot - dL/dz. Central differences over zdot are exact: L is quadratic in it.
+/// Computes d/dt dL/dzdot - dL/dz. Central differences over zdot are exact: L is quadratic in it.
 VectorXd lagrange(const Lagrangian& L, const VectorXd& z, const VectorXd& zdot,
                   const VectorXd& zddot) {
   VectorXd result(z.size());
@@ -166,11 +166,11 @@ TEST_CASE("centrifugal, Coriolis and gyroscopic terms follow from the points' ki
   };
   RandomNumbers random(7);
   VectorXd V = 2 * random.vector(body.z.size());
-  // Each case leaves different terms alive.
+  // Each section leaves different terms nonzero.
   SECTION("rotation only") { V.tail(3).setZero(); }
   SECTION("deformation only") { V.segment<3>(3).setZero(); }
   SECTION("all together") {}
-  // Without elastic and gravity terms, which have a case of their own.
+  // Elastic and gravity terms, which have a test of their own, are removed.
   VectorXd elastic = VectorXd::Zero(V.size());
   body.constants.springs.add_loads(body.terms.a, Vector3d::Zero(), 1, elastic.tail(3));
   const VectorXd u = body.right_hand_side(V, Vector3d::Zero()) + elastic;
@@ -223,7 +223,7 @@ TEST_CASE("a rigid body about any origin moves as its points do") {
   terms.A = random.rotation().toRotationMatrix();
   update_configuration(constants, terms);
 
-  // The points with one mode that never moves.
+  // The points have one mode that never moves.
   const Points truth(points, terms.A);
   const Vector3d gravity(0.3, 0.5, -9.81);
   const Lagrangian L = [&](const VectorXd& z, const VectorXd& zdot) {

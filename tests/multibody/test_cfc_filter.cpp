@@ -38,15 +38,15 @@ TEST_CASE("a channel class damps a sine as its poles say and does not shift it")
   const double ratio =
       std::tan(pi * frequency_Hz * kInterval_s) / std::tan(pi * 2.0775 * number * kInterval_s);
   const double gain = 1 / (1 + std::pow(ratio, 4));
-  // Half a record from the ends nothing is left of them.
+  // Effects of the ends have decayed half a record away from them.
   const auto middle = [](const VectorXd& v) { return v.segment(kCount / 2 - 500, 1000); };
   CHECK((middle(filtered) - gain * middle(signal)).lpNorm<Eigen::Infinity>() < 1e-9);
   if (share == 2.0775) CHECK(gain == Approx(0.5).epsilon(1e-12));
 }
 
 TEST_CASE("a channel class passes and damps as SAE J211 draws it") {
-  // Limits of the standard's figure in dB: up to the class +0.5 and -1, at class / 0.6, which it
-  // names the cutoff, +0.5 and -4; an octave above that at most -9 - 3 or so: well below -12.
+  // Limits of the standard's figure in dB: up to the class +0.5 and -1; at class / 0.6, which it
+  // calls the cutoff, +0.5 and -4; an octave above that at most about -9 - 3: well below -12.
   const auto [cfc, cutoff_Hz] =
       GENERATE(table<ChannelClass, double>({{ChannelClass::cfc60, 100},
                                             {ChannelClass::cfc180, 300},
@@ -73,8 +73,8 @@ TEST_CASE("a channel class keeps a constant and a straight line up to the ends")
   CHECK((cfc_filtered(VectorXd::Constant(50, 7.5), kInterval_s, ChannelClass::cfc180).array() - 7.5)
             .abs()
             .maxCoeff() < 1e-12);
-  // The filter starts as if its first sample had always been: what is left of that at the record's
-  // ends has decayed over ten time constants, exp(-10 / sqrt 2).
+  // The filter starts as if the signal always had its first value: the error of that at the
+  // record's ends has decayed over ten time constants, exp(-10 / sqrt 2).
   const double step = line[1] - line[0];
   CHECK((cfc_filtered(line, kInterval_s, ChannelClass::cfc600) - line).lpNorm<Eigen::Infinity>() <
         1e-2 * step);

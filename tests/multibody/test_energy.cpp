@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Balances and symmetries of whole runs: they hold for every term of the equations at once.
+// Balances and symmetries of whole runs, which check every term of the equations at once.
 #include <cmath>
 #include <numbers>
 
@@ -38,8 +38,8 @@ Beam soft_beam() {
 }
 
 /// Base – pin – arm – ball – flexible body – fixed – flexible beam – fixed – head, spinning, with
-/// every kind of joint and bodies deformable on both sides. `world` turns all of it with its
-/// gravity.
+/// every kind of joint and deformable bodies on both sides. `world` rotates the whole model with
+/// its gravity.
 ModelBuilder mixed_chain(const PrescribedBody& base, double zeta, const Quaterniond& world) {
   const Beam beam = soft_beam();
   const auto lump = make_point_mass_body(3).body;
@@ -57,7 +57,8 @@ ModelBuilder mixed_chain(const PrescribedBody& base, double zeta, const Quaterni
   const Vector3d origin = joint2 - lump.interface("side").position_m;
   const Vector3d joint3 = origin + lump.interface("tip").position_m;
   const Vector3d joint4 = joint3 + Vector3d(0, 0, beam.length_m);
-  // All beyond the ball spin about it; the arm starts at rest against the base.
+  // All bodies beyond the spherical joint spin about it; the arm starts at rest relative to the
+  // base.
   const auto rate_of = [&](const Vector3d& point) -> Vector3d {
     return slide + world * spin.cross(point - joint2);
   };
@@ -78,7 +79,7 @@ ModelBuilder mixed_chain(const PrescribedBody& base, double zeta, const Quaterni
   return build;
 }
 
-/// Springs, bushings, a torque and resistances of the joints.
+/// Adds springs, bushings, a torque and resistances of the joints.
 void add_all_forces(Model& model) {
   const auto marker = [&](const char* name) { return model.marker_index(name); };
   Resistance stiff;
@@ -165,7 +166,7 @@ TEST_CASE("A model that is turned with its gravity by an odd angle moves the sam
   const History turned = run(world);
   const MarkerHistory& a = upright.marker("head cg");
   const MarkerHistory& b = turned.marker("head cg");
-  // Step sizes differ a little: the runs agree as far as each is exact.
+  // Step sizes differ a little, so the runs agree only within their accuracy.
   for (Eigen::Index k = 0; k < upright.time_s.size(); ++k) {
     CHECK((world * a.position_m.col(k) - b.position_m.col(k)).norm() < 1e-8);
     CHECK((world * a.velocity_m_s.col(k) - b.velocity_m_s.col(k)).norm() < 1e-7);
@@ -248,13 +249,13 @@ TEST_CASE("the balance of energy is told where it departs, and ends a run that s
   CHECK_THROWS_WITH(guard_after(-10.1, 20), Contains("10.1 J") && Contains("are lost at 20 s"));
   CHECK_THROWS(guard_after(std::nan(""), 20));
   CHECK_FALSE(guard_after(std::nan(""), 1).warnings().empty());
-  // A step off by half as the motion begins is nothing beside what it comes to.
+  // An error of half the energy at the start of the motion is negligible against its later energy.
   EnergyGuard guard(build.model, {1e-6, 1e-9});
   guard.check(0, with_kinetic(0), 0, 0);
   guard.check(1, with_kinetic(1.5), 0, 1);
   for (int k = 2; k < 100; ++k) guard.check(k, with_kinetic(1000), 0, 1000);
   CHECK(guard.warnings().empty());
-  // An output between two steps counts for what is told.
+  // An output between two steps counts for the warnings.
   guard.see(100, with_kinetic(1002), 0, 1000);
   CHECK(guard.warnings().size() == 1);
 }

@@ -27,8 +27,8 @@ Quaterniond about_y(double angle) {
   return Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitY()));
 }
 
-/// A rod on a pin at the origin, its centre of mass below by half its length when the angle is
-/// zero.
+/// A rod on a revolute joint at the origin, with its centre of mass half its length below when the
+/// angle is zero.
 Model pendulum(double angle) {
   Model model;
   model.gravity_m_s2 = {0, 0, -9.81};
@@ -55,7 +55,7 @@ VectorXd equilibrium_of(const Model& model) {
 }  // namespace
 
 TEST_CASE("a pendulum comes to hang from wherever it starts") {
-  // 1.5708 is almost where the stiffness vanishes, 3.1 almost the upper, unstable equilibrium.
+  // The stiffness almost vanishes at 1.5708, and 3.1 is close to the upper, unstable equilibrium.
   for (const double angle : {0.0, 0.3, -1.2, std::numbers::pi / 2, 2.0, 3.1}) {
     CAPTURE(angle);
     const VectorXd Q = equilibrium_of(pendulum(angle));
@@ -65,7 +65,7 @@ TEST_CASE("a pendulum comes to hang from wherever it starts") {
 }
 
 TEST_CASE("a side force holds a pendulum where the moments balance, from wherever it starts") {
-  // Of the two balances, in one line, the search for the least energy takes the stable one.
+  // The search for the least energy finds the stable one of the two collinear equilibria.
   const double start = GENERATE(0.0, -1.2, 2.0, -2.0, 3.1, -2.9);
   CAPTURE(start);
   Model model = pendulum(start);
@@ -88,7 +88,7 @@ TEST_CASE("a modal body sags until elastic and gravity forces balance") {
   model.markers = {{"wall", 0, ""}, {"root", 1, "root"}};
   model.joints.push_back({"clamp", &kFixedJoint, 0, 1});
   const VectorXd Q = equilibrium_of(model);
-  // The clamp holds the body frame: omega^2 a = S2^T g, without approximation.
+  // The clamp fixes the body frame: omega^2 a = S2^T g, without approximation.
   for (int l = 0; l < 3; ++l) {
     const double omega = 2 * std::numbers::pi * body.frequencies_Hz[l];
     CHECK(
@@ -123,7 +123,7 @@ TEST_CASE("a run from equilibrium stays there while nothing is driven") {
   const MarkerHistory& tip = history.marker("tip");
   CHECK((tip.velocity_m_s.col(3) - Vector3d(3, 0, 0)).norm() < 1e-8);
   CHECK((tip.position_m.col(3) - tip.position_m.col(0) - Vector3d(0.9, 0, 0)).norm() < 1e-9);
-  // Both joints carry what hangs on them.
+  // Each joint carries the weight below it.
   const double mass = 3 + body.invariants.mass;
   CHECK((history.joint("base").force_N.col(3) + mass * model.gravity_m_s2).norm() < 1e-6);
 }
@@ -159,7 +159,7 @@ TEST_CASE("a quasi-static ramp carries bodies along with what is driven") {
   SolverOptions solver;
   solver.formulation = GENERATE(Formulation::descriptor, Formulation::recursive);
   const History history = settle(model, solver, {.end_time_s = 2, .interval_s = 1});
-  // Carried by a metre, hanging straight: however fast, nothing swings.
+  // It is carried by one metre and hangs straight: it does not swing, however fast the carrier.
   CHECK((history.marker("bottom").position_m.col(2) - Vector3d(1, 0, -kLength)).norm() < 1e-9);
 }
 
@@ -183,7 +183,7 @@ TEST_CASE("a quasi-static ramp ends where nothing holds any more, and keeps what
 namespace {
 
 /// Von Mises' truss: a block on a vertical slide, pushed down against a spring that is fixed beside
-/// it and lies flat halfway.
+/// it and is horizontal halfway.
 Model truss(const TimeTable& push_N) {
   Model model = pendulum(0);
   model.gravity_m_s2.setZero();
@@ -233,7 +233,7 @@ TEST_CASE("a quasi-static ramp tells a snap-through, and no other motion, howeve
       warnings(truss(TimeTable({0, 0.5, 1}, {0, kRamp_N, -kRamp_N}, Outside::constant)), 0.01);
   REQUIRE(there_and_back.size() == 1);
   CHECK_THAT(there_and_back[0], Contains("the first of 2 jumps"));
-  // Up to short of it, pulled, by a load that jumps, and behind a kink.
+  // No jump before the snap-through, when pulled, with a load that jumps itself, and after a kink.
   CHECK(warnings(truss(TimeTable({0, 1}, {0, 0.99 * snap_s * kRamp_N}, Outside::constant)), 0.1)
             .empty());
   CHECK(warnings(truss(TimeTable({0, 1}, {0, -kRamp_N}, Outside::constant)), 0.1).empty());

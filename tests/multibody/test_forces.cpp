@@ -23,7 +23,7 @@ using namespace flexneck::testing;
 
 namespace {
 
-/// A force of one kind alone: what it stores must change by what its loads take in.
+/// Checks one kind of force: the change of its stored energy must equal the power of its loads.
 template <typename Keep>
 void check_power(Keep&& keep) {
   Model model = forest();
@@ -66,12 +66,12 @@ void check_power(Keep&& keep) {
   // Differences of order 6 of energies of some joules.
   CHECK(power == Approx(-rate - forces.lost_W()).margin(1e-9));
   CHECK(forces.lost_W() >= 0);
-  // Action is reaction.
+  // Action equals reaction.
   CHECK(force.norm() < 1e-13);
   CHECK(moment.norm() < 1e-13);
 }
 
-/// A block of 2 kg that slides along x on a slider joint.
+/// A block of 2 kg that slides along x on a prismatic joint.
 ModelBuilder sliding_block(double speed_m_s) {
   ModelBuilder build;
   const auto ground = build.ground();
@@ -120,7 +120,7 @@ TEST_CASE("friction stops a block where it must") {
                           mass * kFull * kFull / kFriction_N;
   CHECK(history.marker("block").position_m(0, 2) == Approx(expected).epsilon(1e-7));
   CHECK(history.energy.dissipated_J[2] == Approx(mass * kSpeed * kSpeed / 2).epsilon(1e-7));
-  // Friction is no part of the joint's reaction.
+  // Friction is not part of the joint's reaction.
   CHECK(history.joint("rail").force_N.cwiseAbs().maxCoeff() < 1e-12);
 }
 
@@ -140,7 +140,7 @@ TEST_CASE("a stop with hysteresis gives back the share of energy that it is told
   const Eigen::Index last = history.time_s.size() - 1;
   const double out = history.marker("block").velocity_m_s(0, last);
   REQUIRE(history.marker("block").position_m(0, last) < kStop_m);
-  // The law turns over within 1e-4 of the speed: an error of the order of its square.
+  // The law reverses within 1e-4 of the speed: an error of the order of its square.
   CHECK(out * out / (kSpeed * kSpeed) == Approx(kRatio).epsilon(1e-6));
   CHECK(history.marker("block").position_m.row(0).maxCoeff() > kStop_m + 0.05);
   const Eigen::VectorXd balance =
@@ -160,8 +160,8 @@ TEST_CASE("steps end where a stop is met and left, and the kinks cost neither or
   }
   build.model.forces.add(JointResistance{"idle", 0, JointCoordinate::distance, {}});
   build.model.forces.add(stops);
-  // To the stop, half a swing of sqrt(m / k) in it, back through the middle to the other one, half
-  // a swing, and back to where it began.
+  // The path: to the stop, half a period of sqrt(m / k) in it, back through the middle to the other
+  // one, half a period, and back to the start.
   const double swing_s = std::numbers::pi * std::sqrt(2 / kStiffness);
   const double round_s = 4 * kStop_m / kSpeed + 2 * swing_s;
   constexpr int kRounds = 3;
@@ -170,22 +170,23 @@ TEST_CASE("steps end where a stop is met and left, and the kinks cost neither or
     const History history =
         simulate(build.model, solver_of(tolerance, 1e-3 * tolerance),
                  {.end_time_s = kRounds * round_s, .interval_s = kRounds * round_s});
-    // Some ten steps a swing, each with an error of the tolerance.
+    // There are some ten steps per oscillation, each with an error of the tolerance.
     CHECK(std::abs(history.marker("block").position_m(0, 1)) < 100 * tolerance * kStop_m);
     CHECK(history.marker("block").velocity_m_s(0, 1) == Approx(kSpeed).epsilon(100 * tolerance));
     int events = 0;
     for (const StepLimit& limit : history.statistics.limits)
       if (limit.what == "event: resistance 'stops': a stop or a kink of its curve")
         events = limit.steps;
-    // Into and out of each; a second, short step where the first ended just before the event.
+    // Events are entering and leaving each stop; a second, short step if the first ended just
+    // before the event.
     CHECK(events >= 4 * kRounds);
     CHECK(events <= 8 * kRounds);
   }
 }
 
 TEST_CASE("a block comes to rest in a hard stop at the end of a soft spring") {
-  // A step by the soft spring's stiffness ends far beyond the stop, where the energy is much
-  // higher, and the next one by the stop's far on the other side.
+  // A step chosen for the soft spring ends far beyond the stop, where the energy is much higher,
+  // and the next one, chosen for the stop, far on the other side.
   constexpr double kStop_m = 0.05;
   constexpr double kHard = 1e6;
   constexpr double kPull_N = 10;
@@ -223,7 +224,8 @@ TEST_CASE("a body on a bushing has the frequencies of its springs") {
   const auto ground = build.ground();
   const Vector3d moments(0.02, 0.03, 0.04);
   const auto body = build.body("body", RigidBody{2, Vector3d::Zero(), moments.asDiagonal()});
-  // The equilibrium needs a joint that carries; a ball and a bushing's rotations.
+  // The equilibrium needs a joint that carries the body, and rotations of a spherical joint and a
+  // bushing.
   build.joint("ball", &kSphericalJoint, build.marker("ground", ground), build.marker("body", body));
   Bushing bushing{"bushing", 0, 1, {}, {}};
   bushing.stiffness.setZero();

@@ -21,12 +21,12 @@ using namespace flexneck::testing;
 
 namespace {
 
-/// A body on a soft mount, which a bushing or the same as a function makes, on a sled that turns.
+/// A body on a soft mount, made by a bushing or by the equivalent function, on a rotating sled.
 struct Mounted {
   ModelBuilder build;
   std::size_t below = 0, above = 0;
 
-  /// @param on_axle  the block can only turn about and slide along the mount's z axis
+  /// @param on_axle  the block can only rotate about and slide along the mount's z axis
   explicit Mounted(double sled_rate_rad_s, bool on_axle = false) {
     build.model.gravity_m_s2 = {1, -2, -9.81};
     PrescribedBody sled;
@@ -54,7 +54,7 @@ Bushing mount(const Mounted& mounted) {
   return bushing;
 }
 
-/// The bushing's load, written down again: e^T K e / 2 has the moment J_l^-T K theta.
+/// The bushing's load, written independently: e^T K e / 2 has the moment J_l^-T K theta.
 FunctionForce mount_by_function(const Mounted& mounted) {
   const Bushing bushing = mount(mounted);
   FunctionForce force{"mount", mounted.below, mounted.above, {}, true};
@@ -88,7 +88,7 @@ TEST_CASE("a bushing that is written as a function moves and loads the same") {
   CHECK((a.acceleration_m_s2 - b.acceleration_m_s2).norm() < 1e-6 * a.acceleration_m_s2.norm());
   CHECK((a.angular_acceleration_rad_s2 - b.angular_acceleration_rad_s2).norm() <
         1e-6 * a.angular_acceleration_rad_s2.norm());
-  // The books: what the element stores and loses, the function has given as work.
+  // Energies: the function has given as work what the element stores and dissipates.
   const EnergyHistory& books = function.energy;
   CHECK(books.dissipated_J.norm() == 0);
   const Eigen::VectorXd total = books.kinetic_J + books.gravitational_J - books.work_J;

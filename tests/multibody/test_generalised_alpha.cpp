@@ -26,7 +26,7 @@ namespace {
 
 std::unique_ptr<Equations> equations_of(const Model& model, Formulation formulation) {
   SolverOptions solver;
-  // Newton's method goes on to a hundredth of this.
+  // Newton's method continues to a hundredth of this.
   solver.relative_tolerance = 1e-10;
   solver.absolute_tolerance = 1e-12;
   return formulation == Formulation::recursive ? recursive_equations(model, solver)
@@ -65,7 +65,7 @@ Vector3d top_center(const VectorXd& state, Formulation formulation) {
   return origin + Quaterniond(q[0], q[1], q[2], q[3]) * Vector3d(0, 1, 0);
 }
 
-/// Swings on a pin: a stiff beam without damping and a head.
+/// A pendulum on a revolute joint: a stiff beam without damping and a head.
 Model stiff_pendulum() {
   ModelBuilder build;
   Beam beam;
@@ -84,7 +84,7 @@ Model stiff_pendulum() {
   return build.model;
 }
 
-/// Rods of 1 kg on pins, released at rest far from the vertical.
+/// Rods of 1 kg on revolute joints, released at rest far from the vertical.
 Model hanging_rods(int count, double length, double inertia, const Vector3d& from) {
   ModelBuilder build;
   const Quaterniond tilt(Eigen::AngleAxisd(-1.2, Vector3d::UnitY()));
@@ -105,9 +105,9 @@ Model hanging_rods(int count, double length, double inertia, const Vector3d& fro
 constexpr double kCrankRate = 3;
 constexpr double kCrankStart = -1.5;
 
-/// Bars of 1 kg: cranks of 1 m at both ends of a coupler of 2 m, which turn alike and evenly. It
-/// lies flat, where its rows are dependent, whenever the cranks pass a multiple of pi: at 0.5 s
-/// first.
+/// Bars of 1 kg: cranks of 1 m at both ends of a coupler of 2 m, which rotate equally and evenly.
+/// The mechanism is flat, where its rows are dependent, whenever the cranks pass a multiple of pi:
+/// first at 0.5 s.
 Model parallelogram(double inertia) {
   ModelBuilder build;
   const auto bar = [&](double length) {
@@ -145,7 +145,7 @@ TEST_CASE("generalised-alpha takes the heavy top where it must be, with order tw
   const Vector3d fine = end(8000);
   const double error = (fine - published).norm();
   CHECK(std::log2((coarse - published).norm() / error) == Approx(2).margin(0.05));
-  // Without the leading term of the error only those of higher order are left.
+  // Extrapolation removes the leading term of the error and leaves those of higher order.
   CHECK(((4 * fine - coarse) / 3 - published).norm() < error / 20);
 }
 
@@ -159,7 +159,7 @@ TEST_CASE("generalised-alpha is of order two for deformation, whatever it damps"
   const SolverOptions tight{.relative_tolerance = 1e-12, .absolute_tolerance = 1e-15};
   const History exact = simulate(build.model, tight, {.end_time_s = kEnd_s, .interval_s = kEnd_s});
   const VectorXd reference = exact.modal[0].coordinates.col(1);
-  // Joint coordinates of a fixed joint: none; the state begins with the modes.
+  // A fixed joint has no coordinates; the state begins with the modes.
   const auto error = [&](int steps) {
     return (end_of(build.model, Formulation::recursive, spectral_radius, kEnd_s, steps).head(4) -
             reference)
@@ -199,9 +199,9 @@ TEST_CASE("generalised-alpha steps over stiff vibrations that hold up the explic
   const MarkerHistory& b = found.marker("head cg");
   CHECK((a.position_m - b.position_m).colwise().norm().maxCoeff() < 1e-3);
   CHECK(b.position_m.col(0) != b.position_m.col(10));
-  // What is put out keeps the joints.
+  // Outputs satisfy the joints.
   CHECK(found.statistics.max_position_residual < 1e-9);
-  // Each says what it waits for.
+  // Each run reports what limits its steps.
   REQUIRE_FALSE(exact.statistics.limits.empty());
   REQUIRE_FALSE(found.statistics.limits.empty());
   int steps = 0;
@@ -212,7 +212,7 @@ TEST_CASE("generalised-alpha steps over stiff vibrations that hold up the explic
 }
 
 TEST_CASE("generalised-alpha keeps the books of energy, damped and not, in closed form") {
-  // A block on a slider between a spring with a damper and a force that is the same at all times.
+  // A block on a prismatic joint between a spring with a damper and a constant force.
   constexpr double kMass_kg = 2;
   constexpr double kStiffness = 800;  // N/m: 20 rad/s
   constexpr double kForce_N = 40;
@@ -236,7 +236,7 @@ TEST_CASE("generalised-alpha keeps the books of energy, damped and not, in close
   SolverOptions solver = solver_of(1e-9, 1e-12);
   solver.integrator = Integrator::generalised_alpha;
   const History history = simulate(build.model, solver, {.end_time_s = 0.5, .interval_s = 0.05});
-  // About its rest it swings freely: x - rest = offset e^(-zeta omega t) (cos + sin zeta / ..).
+  // It oscillates freely about its rest: x - rest = offset e^(-zeta omega t) (cos + sin zeta / ..).
   const double rest = kForce_N / kStiffness;
   const double offset = kStart_m - rest;
   const double damped = omega * std::sqrt(1 - zeta * zeta);
@@ -320,8 +320,8 @@ TEST_CASE("generalised-alpha closes loops whose joints repeat each other") {
 
 TEST_CASE(
     "generalised-alpha starts at rest with short steps, whatever is left of the constraints") {
-  // Over the first steps, some 1e-5 s long, rounding of the positions makes speeds of 1e-11 m/s and
-  // more, a hundredth of what the tolerance allows bodies at rest.
+  // Over the first steps, some 1e-5 s long, rounding of the positions causes speeds of 1e-11 m/s
+  // and more, a hundredth of the tolerance for bodies at rest.
   const Model model =
       GENERATE(hanging_rods(6, 1, 1e-2, {0, 0, 0}), hanging_rods(6, 0.1, 1e-6, {100, 0, 0}));
   const OutputOptions output{.end_time_s = 0.2, .interval_s = 0.2};
@@ -331,7 +331,7 @@ TEST_CASE(
   solver.formulation = Formulation::descriptor;
   solver.integrator = Integrator::generalised_alpha;
   const History found = simulate(model, solver, output);
-  // Of order 2, with a local error of order 3.
+  // The method is of order 2, with a local error of order 3.
   const double allowed = 0.5 * std::pow(solver.relative_tolerance, 2. / 3);
   CHECK((exact.marker("end 5").position_m - found.marker("end 5").position_m).norm() < allowed);
 }
@@ -342,7 +342,7 @@ TEST_CASE("generalised-alpha passes through the flat positions of a parallelogra
     SolverOptions solver{.relative_tolerance = tolerance, .absolute_tolerance = 1e-3 * tolerance};
     solver.formulation = Formulation::descriptor;
     solver.integrator = Integrator::generalised_alpha;
-    // An output lies where the cranks do.
+    // One output is in the flat position.
     const History history =
         simulate(parallelogram(inertia), solver, {.end_time_s = end_s, .interval_s = 0.5});
     double largest = 0;
@@ -353,11 +353,12 @@ TEST_CASE("generalised-alpha passes through the flat positions of a parallelogra
     }
     return largest;
   };
-  // Five times; some 300 steps at 1e-5, and of order 2: the error goes with the tolerance's 2/3.
+  // The flat position is passed five times; there are some 300 steps at 1e-5, and the method is of
+  // order 2: the error goes with the tolerance's power 2/3.
   const double coarse = error(1e-5, 5);
   CHECK(coarse < 3e-3);
   CHECK(error(1e-7, 5) < coarse / 10);
-  // The output at 0.5 s is within 1e-6 of flat, where a row more is redundant: there only.
+  // The output at 0.5 s is within 1e-6 of flat, where one more row is redundant, and only there.
   CHECK(error(1e-9, 1) < 2e-6);
 }
 

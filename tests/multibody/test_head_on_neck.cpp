@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Prescribed base - neck - head: against the form without multipliers (equations.md section 6).
+// Prescribed base - neck - head, compared with the form without multipliers (equations.md section
+// 6).
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -16,7 +17,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Modal coordinates at each whole interval by the classical Runge-Kutta rule from rest.
+/// Modal coordinates at each whole interval by the classical Runge-Kutta method, starting at rest.
 std::vector<VectorXd> integrate(const MinimalModel& model, double interval_s, int intervals,
                                 int steps) {
   const Eigen::Index m = model.neck.mode_count();

@@ -34,7 +34,7 @@ MarkerHistory random_marker(testing::RandomNumbers& random, const std::string& n
           random_columns<Eigen::Matrix3Xd>(random, 3)};
 }
 
-/// Names in an order that is not the alphabet's.
+/// A history whose names are not in alphabetical order.
 HistoryFile random_history() {
   testing::RandomNumbers random(7);
   HistoryFile file;

@@ -17,8 +17,8 @@ namespace {
 
 constexpr StepLimits kStepLimits{1.0, 1e-10};
 
-/// s = exp(sin t) satisfies s'' = s'^2 / s - s sin t: nonlinear, and in time too, so that no order
-/// condition is met by luck.
+/// s = exp(sin t) satisfies s'' = s'^2 / s - s sin t: nonlinear, and time-dependent too, so that no
+/// order condition is satisfied by chance.
 double exact(double t) { return std::exp(std::sin(t)); }
 double exact_rate(double t) { return std::cos(t) * exact(t); }
 void derivative(double t, const VectorXd& y, VectorXd& rate) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Angles of joints and measured ones count turns, whatever the formulation, the integrator and the
-// outputs' interval.
+// Angles of joints and measured angles count turns, for every formulation, integrator and interval
+// of the outputs.
 #include <cmath>
 #include <numbers>
 
@@ -26,11 +26,11 @@ constexpr double kMass = 1.3;     ///< kg
 constexpr double kLead = 0.4;     ///< m
 const Vector3d kAxis = Vector3d(1, -2, 2) / 3;
 
-/// A wheel on the ground by a joint with an angle, which starts with it and its rate.
-/// @param outwards  the ground is the joint's marker i
+/// A wheel connected to the ground by a joint with an angle, with an initial angle and rate.
+/// @param outwards  true if the ground is the joint's marker i
 Model wheel(const JointKind& kind, double angle_rad, double rate_rad_s, bool outwards = true) {
   ModelBuilder build;
-  const double sign = outwards ? 1 : -1;  // of the wheel's rotation
+  const double sign = outwards ? 1 : -1;  // sign of the wheel's rotation
   const double lead = kind.advances ? kLead / kTurn : 0;
   const Pose pose{
       outwards ? Vector3d(lead * angle_rad * kAxis) : Vector3d(-lead * angle_rad * kAxis),
@@ -93,7 +93,7 @@ TEST_CASE("a measured angle counts each turn between coarse outputs, at any rate
   solver.integrator = integrator;
   solver.max_step_s = 0.25;
   const double rate = GENERATE(330., -2500.);
-  // The spin alone lets steps grow over many turns; a torque bends the rate.
+  // With the spin alone steps grow to many turns; a torque changes the rate.
   Model model = wheel(kRevoluteJoint, 0, rate);
   const bool drives = GENERATE(false, true);
   if (drives) model.forces.add(Torque{"drive", 1, kAxis, constant_table(40)});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Motions that a screw, a planar and a distance joint leave, in closed form.
+// Free motions of a screw, a planar and a distance joint, in closed form.
 #include <cmath>
 #include <numbers>
 
@@ -27,7 +27,7 @@ RigidBody ball() {
   return {kMass_kg, Vector3d::Zero(), kInertia_kg_m2 * Eigen::Matrix3d::Identity()};
 }
 
-/// A ball under gravity on a joint with the ground, whose axis is that of x.
+/// A ball under gravity, connected to the ground by a joint whose axis is x.
 ModelBuilder ball_on(const JointKind* kind, const Vector3d& place_m, const Vector3d& gravity) {
   ModelBuilder build;
   build.model.gravity_m_s2 = gravity;
@@ -56,7 +56,7 @@ TEST_CASE("a nut on a screw falls as if it had the mass m + I / l^2, turn after 
   CHECK(fallen / std::abs(lead_m) > 10);  // turns
   CHECK(nut.position_m(0, last) == Approx(fallen).epsilon(1e-9));
   CHECK(nut.angular_velocity_rad_s(0, last) == Approx(acceleration * 10 / l).epsilon(1e-9));
-  // The thread carries what gravity has left of itself.
+  // The thread carries the rest of the weight.
   const Vector3d force = history.joints[0].force_N.col(last);
   const double held = kMass_kg * (kGravity_m_s2 - acceleration);
   CHECK(force.x() == Approx((nut_first ? 1 : -1) * held).epsilon(1e-9));

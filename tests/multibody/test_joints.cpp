@@ -15,8 +15,8 @@
 #include "tests/support/point_mass_body.h"
 
 // Every joint between two random deformable bodies, or a prescribed and a deformable one on either
-// side, large deformations and velocities. The truth is where the two markers are along a motion
-// with given accelerations.
+// side, with large deformations and velocities. The reference is the positions of the two markers
+// along a motion with given accelerations.
 
 using Eigen::Index;
 using Eigen::Matrix3d;
@@ -35,13 +35,13 @@ using namespace flexneck::multibody;
 namespace {
 
 constexpr double kStep = 4e-3;
-/// Differences of order 6 against rates of the order of 10 m/s and rad/s.
+/// Tolerance of differences of order 6 for rates of the order of 10 m/s and rad/s.
 constexpr double kTolerance = 1e-7;
-/// The same of second derivatives, of their size.
+/// Tolerance of second derivatives, relative to their size.
 constexpr double kRelativeTolerance = 1e-8;
 const Vector3d kAxis(0.6, 0.0, 0.8);
 const Vector3d kSecondAxis(0.8, 0.0, -0.6);
-/// How far a joint that turns or slides has done so.
+/// Rotation and displacement of joints that rotate or slide.
 constexpr double kTurn = 0.7;
 constexpr double kSlide_m = 0.3;
 constexpr double kLead_m = 0.2;
@@ -53,7 +53,7 @@ bool is_sliding(const JointKind* kind) {
   return kind == &kCylindricalJoint || kind == &kPrismaticJoint;
 }
 
-/// Where marker j is seen from i, in the axes of i.
+/// Position of marker j relative to i, in the axes of i.
 Vector3d slide_of(const JointKind* kind) {
   if (is_sliding(kind)) return kSlide_m * kAxis;
   if (kind == &kPlanarJoint) return kSlide_m * kSecondAxis;
@@ -62,7 +62,7 @@ Vector3d slide_of(const JointKind* kind) {
   return Vector3d::Zero();
 }
 
-/// Two bodies of which one may be prescribed. The prescribed one has a marker off its origin.
+/// Two bodies, one of which may be prescribed. A prescribed one has a marker off its origin.
 Model two_bodies(const JointKind* kind, Prescribed which) {
   RandomNumbers random(31);
   Model model;
@@ -96,7 +96,7 @@ VectorXd stacked(const VectorXd& first, const VectorXd& second) {
   return both;
 }
 
-/// The markers along Q (+) (t V + t^2 / 2 Vdot), and what a joint of each kind holds of them.
+/// The markers along Q (+) (t V + t^2 / 2 Vdot), and the residual of each kind of joint there.
 class Path {
  public:
   Path(const Model& model, const System& system, const VectorXd& state, const VectorXd& Vdot)
@@ -125,8 +125,9 @@ class Path {
     return motion.frame(t);
   }
 
-  /// @param D  directions that hold the positions at t = 0; a slider's turn with marker i
-  /// @param T  directions that hold the orientations of a pin or a cylindrical joint at t = 0
+  /// @param D  constrained directions of the positions at t = 0; a slider's rotate with marker i
+  /// @param T  constrained directions of the orientations of a revolute or cylindrical joint at t =
+  /// 0
   VectorXd residual(const JointKind* kind, double t, const Matrix3d& D, const Matrix3d& T) const {
     const Frame i = frame(0, t);
     const Frame j = frame(1, t);
@@ -162,7 +163,7 @@ class Path {
   const VectorXd& Vdot_;
 };
 
-/// Orientation that marker j may have when i has the given one.
+/// An orientation that the joint permits marker j for a given one of i.
 Matrix3d joined_orientation(const JointKind* kind, const Matrix3d& R_i) {
   if (kind->rotation == RotationConstraint::none)
     return RandomNumbers(38).rotation().toRotationMatrix();
@@ -172,7 +173,7 @@ Matrix3d joined_orientation(const JointKind* kind, const Matrix3d& R_i) {
   return R_i;
 }
 
-/// A random state in which i and j coincide as the joint wants, brought onto it in velocity too.
+/// A random state in which i and j satisfy the joint, corrected to satisfy it in velocity too.
 VectorXd joined_state(const Model& model, const System& system, EquationsOfMotion& equations) {
   RandomNumbers random(34);
   VectorXd state = given_state(model, system);
@@ -184,7 +185,7 @@ VectorXd joined_state(const Model& model, const System& system, EquationsOfMotio
     state.segment(body.position + 7, m) = 0.08 * random.vector(m);
     state.segment(system.position_count + body.velocity, 6 + m) = 1.5 * random.vector(6 + m);
   }
-  // Turn and shift the last free body so that the markers meet.
+  // Rotate and shift the last free body so that the markers coincide.
   const VectorXd none = VectorXd::Zero(system.velocity_count);
   const Path path(model, system, state, none);
   const JointKind* const kind = model.joints[0].kind;
@@ -192,7 +193,7 @@ VectorXd joined_state(const Model& model, const System& system, EquationsOfMotio
   const Frame j = path.frame(1, 0);
   const FreeBody& body = system.bodies.back();
   const bool moves_j = body.index == 1;
-  // R_j = R_i F must hold.
+  // Condition: R_j = R_i F.
   const Matrix3d F = i.R.transpose() * joined_orientation(kind, i.R);
   const Matrix3d turn =
       moves_j ? i.R * F * j.R.transpose() : Matrix3d(j.R * F.transpose() * i.R.transpose());
@@ -229,7 +230,7 @@ TEST_CASE("rows of every joint are derivatives of its position residual along a 
   const JointRows& joint = equations.joint(0);
   const auto residual = [&](double t) { return path.residual(kind, t, joint.D, joint.T); };
   REQUIRE(residual(0).size() == joint.rows);
-  // The state keeps the joint, in velocity too: the truth says so, not only the code.
+  // The state satisfies the joint, in velocity too, by the reference and not only by the code.
   CHECK(residual(0).norm() < 1e-13);
   CHECK(VectorXd(first_derivative(residual, kStep)).norm() < kTolerance);
 
@@ -249,7 +250,8 @@ TEST_CASE("rows of every joint are derivatives of its position residual along a 
 }
 
 TEST_CASE("velocity rows of every joint are derivatives of its residual off the joint too") {
-  // Those with a common axis hold only on the joint: T is chosen there anew.
+  // Kinds with a common axis are left out: their T is redefined at the configuration, so Phi is
+  // valid only on the joint.
   const JointKind* const kind = GENERATE(&kSphericalJoint, &kFixedJoint, &kUniversalJoint);
   const Model model = two_bodies(kind, Prescribed::none);
   const System system(model);
@@ -281,12 +283,12 @@ TEST_CASE("reactions do no work on motions that keep the joint") {
   const Reaction on_j = reaction(joint, multipliers);
   const NodeKinematics& i = equations.marker(0);
   const NodeKinematics& j = equations.marker(1);
-  // The force acts where marker j is; there body i moves with its marker's rotation.
+  // The force acts at the position of marker j; body i moves there with its marker's rotation.
   const Vector3d arm = j.p - i.p;
   const double power =
       on_j.force_N.dot(j.pd - i.pd - i.Om.cross(arm)) + on_j.moment_Nm.dot(j.Om - i.Om);
   CHECK(std::abs(power) < 1e-12);
-  // What the joint leaves free carries nothing.
+  // A joint carries no load in its free directions.
   const Vector3d h = i.R * kAxis;
   if (kind == &kSphericalJoint) CHECK(on_j.moment_Nm.norm() == 0);
   if (kind->has_angle && !kind->advances) CHECK(std::abs(on_j.moment_Nm.dot(h)) < 1e-14);

@@ -63,8 +63,8 @@ struct Dense {
 
 TEST_CASE("elimination body by body solves the whole system") {
   RandomNumbers random(41);
-  // A chain on a prescribed body, a branch, and a loop closed between its ends; envelopes of all
-  // kinds.
+  // A chain on a prescribed body, a branch, and a loop closed between its ends; all forms of
+  // envelopes.
   const std::vector<Index> sizes = {6, 10, 6, 8};
   const std::vector<JointPlace> places = {{kPrescribed, 0, 3}, {0, 1, 6}, {1, 2, 3},
                                           {3, 0, 6},           {2, 3, 3}, {2, kPrescribed, 3}};
@@ -105,7 +105,7 @@ TEST_CASE("rows that repeat others are found and left out") {
     CHECK(redundant[static_cast<std::size_t>(r)].joint == 2);
     CHECK(redundant[static_cast<std::size_t>(r)].row == r);
   }
-  // Loads along the first three axes go through the prescribed joint; its multipliers are theirs.
+  // Loads along the first three axes go through the prescribed joint; its multipliers equal them.
   VectorXd r = VectorXd::LinSpaced(12, 1, 12);
   VectorXd s = VectorXd::Zero(12);
   solver.solve(r, s);
@@ -117,7 +117,7 @@ TEST_CASE("rows that repeat others are found and left out") {
 
 TEST_CASE(
     "masses that differ by fourteen orders leave all digits, and rank is decided without them") {
-  // A heavy body on a prescribed one; a light one ties another heavy one to it.
+  // A heavy body on a prescribed one; a light one connects another heavy one to it.
   using Extended = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
   RandomNumbers random(43);
   const std::vector<JointPlace> places = {{kPrescribed, 0, 3}, {0, 1, 6}, {1, 2, 6}};
@@ -172,7 +172,7 @@ TEST_CASE("a body whose mass matrix is not positive definite is named until all 
   };
   CHECK(factorise(1, 1) == std::nullopt);
   CHECK(factorise(1, 0.4) == std::size_t{1});
-  // Numbers that are none are no sign of it, and say nothing of the last one that was.
+  // NaN does not count as indefinite, and does not change the last report.
   const double nan = std::nan("");
   CHECK(factorise(nan, nan) == std::size_t{1});
   CHECK(factorise(0.4, 1) == std::size_t{0});

@@ -30,7 +30,7 @@ using flexneck::skew;
 namespace {
 
 constexpr double kGravity = 9.81;
-/// Central differences over 1e-5 of a radian leave about 1e-10.
+/// Tolerance: central differences over 1e-5 rad leave about 1e-10.
 constexpr double kTolerance = 1e-8;
 
 double hertz(double omega) { return omega / (2 * std::numbers::pi); }
@@ -44,7 +44,7 @@ RigidBody rod(double mass, double length) {
   return body;
 }
 
-/// Two rods on pins, hanging from the ground.
+/// Two rods on revolute joints, hanging from the ground.
 Model double_pendulum(double m1, double l1, double m2, double l2) {
   Model model;
   model.gravity_m_s2 = {0, 0, -kGravity};
@@ -62,7 +62,7 @@ Model double_pendulum(double m1, double l1, double m2, double l2) {
   return model;
 }
 
-/// K and M of its angles.
+/// Matrices K and M for its angles.
 std::pair<Matrix2d, Matrix2d> double_pendulum_matrices(double m1, double l1, double m2, double l2) {
   // M = [m1 l1^2/3 + m2 l1^2, m2 l1 l2/2; ., m2 l2^2/3], K = g diag(m1 l1/2 + m2 l1, m2 l2/2).
   Matrix2d M, K;
@@ -71,7 +71,7 @@ std::pair<Matrix2d, Matrix2d> double_pendulum_matrices(double m1, double l1, dou
   return {K, M};
 }
 
-/// A modal body clamped by its root to a prescribed body, with a head on its tip.
+/// A modal body clamped at its root to a prescribed body, with a head on its tip.
 Model clamped(double zeta, double head_kg, int modes) {
   Model model;
   const auto body = make_point_mass_body(61, modes).body;
@@ -107,7 +107,8 @@ TEST_CASE("a double pendulum swings with its closed-form frequencies in both pla
     CHECK(mode.damped_frequency_Hz == Approx(mode.frequency_Hz).epsilon(kTolerance));
     CHECK(std::abs(mode.damping_ratio) < kTolerance);
   }
-  // On balls each swings in two planes, and the turns about the vertical have no restoring force.
+  // On spherical joints each rod swings in two planes; rotations about the vertical have no
+  // restoring force.
   for (Joint& joint : model.joints) joint.kind = &kSphericalJoint;
   const auto free_modes = system_modes(model);
   REQUIRE(free_modes.size() == 6);
@@ -127,7 +128,7 @@ TEST_CASE("shapes of a double pendulum are the eigenvectors of its closed form")
   for (Index k = 0; k < 2; ++k) {
     const ModeShape& found = modes[static_cast<std::size_t>(k)];
     CHECK(found.mode.frequency_Hz == Approx(hertz(std::sqrt(eigen.values[k]))).epsilon(kTolerance));
-    // A turn by phi about y moves what hangs below by -l phi along x.
+    // A rotation by phi about y moves points at l below by -l phi along x.
     const Eigen::Vector2d phi = eigen.vectors.col(k);
     const Eigen::Vector2d ends(-l1 * phi[0], -l1 * phi[0] - l2 * phi[1]);
     const double largest = std::abs(ends[0]) > std::abs(ends[1]) ? ends[0] : ends[1];
@@ -143,7 +144,8 @@ TEST_CASE("shapes of a double pendulum are the eigenvectors of its closed form")
 }
 
 TEST_CASE("about a hub that turns, a linear beam is softer by the square of the spin") {
-  // f^2 = f0^2 - spin^2 in the plane, f0 across it: no run is needed, nor an equilibrium.
+  // f^2 = f0^2 - spin^2 in the plane, f0 perpendicular to it: neither a run nor an equilibrium is
+  // needed.
   constexpr double kSpin = 12;
   Model model = clamped(0, 0, 1);
   PrescribedBody hub;
@@ -153,13 +155,13 @@ TEST_CASE("about a hub that turns, a linear beam is softer by the square of the 
   model.bodies[1].initial_angular_velocity_rad_s = {0, 0, kSpin};
   const auto points = make_point_mass_body(61, 1);
   const auto& body = points.body;
-  // What the mode does across the axis, of the mass of one.
+  // Fraction of the mode's unit modal mass in motions across the axis.
   const double in_plane =
       (body.shapes[0].topRows<2>().colwise().squaredNorm() * points.masses_kg).value();
   REQUIRE(in_plane > 0.1);
   const double omega = 2 * std::numbers::pi * body.frequencies_Hz[0];
-  // By joint coordinates about the state given; by all bodies' coordinates about steady rotation,
-  // where the beam is bent outwards, which to a linear body is the same.
+  // In joint coordinates about the given state; in all bodies' coordinates about steady rotation,
+  // where the beam is bent outwards, which makes no difference for a linear body.
   const auto at = GENERATE(LinearisedAt::given, LinearisedAt::equilibrium);
   const std::vector<ModeShape> modes = linearise(model, at);
   REQUIRE(modes.size() == 1);
@@ -199,7 +201,7 @@ TEST_CASE("a head on a modal body swings as the minimal-coordinate form says") {
   const auto& body = std::get<DeformableBody>(model.bodies[1].kind).modes;
   const auto& tip = body.interface("tip");
   const auto& head = std::get<RigidBody>(model.bodies[2].kind);
-  // equations.md section 6 at a = 0 and rest; all head quantities about its joint.
+  // equations.md section 6 at a = 0 and rest; all quantities of the head are about its joint.
   const Eigen::Matrix3d hS = skew(head.mass_kg * head.center_m);
   const Eigen::Matrix3d hJ =
       head.inertia_kg_m2 - head.mass_kg * skew(head.center_m) * skew(head.center_m);
@@ -230,7 +232,7 @@ TEST_CASE("a head on a modal body swings as the minimal-coordinate form says") {
 }
 
 TEST_CASE("overdamped modes pair their real eigenvalues by shape") {
-  // Two uncoupled oscillators, turned so that the matrices are full; their eigenvalues interlace:
+  // Two uncoupled oscillators, rotated so that the matrices are full; their eigenvalues interlace:
   // w = 10, zeta = 2 gives -2.68 and -37.3; w = 12, zeta = 1.2 gives -6.44 and -22.4.
   const Eigen::Rotation2Dd turn(0.7);
   const Matrix2d R = turn.toRotationMatrix();
@@ -245,7 +247,8 @@ TEST_CASE("overdamped modes pair their real eigenvalues by shape") {
 }
 
 TEST_CASE("an unstable motion has its eigenvalues and a growth rate") {
-  // Moving away, swinging ever further, and creeping away: lambda = +-2, 0.3 +- 4i, 0.5 and 8.
+  // Divergence, growing oscillation and growing overdamped motion: lambda = +-2, 0.3 +- 4i, 0.5 and
+  // 8.
   const Matrix2d R = Eigen::Rotation2Dd(0.4).toRotationMatrix();
   const auto modes_with = [&](double k1, double c1, double k2, double c2) {
     return modes_of(R * Eigen::Vector2d(k1, k2).asDiagonal() * R.transpose(),
@@ -263,12 +266,12 @@ TEST_CASE("an unstable motion has its eigenvalues and a growth rate") {
   CHECK(creeping[0].frequency_Hz == Approx(hertz(2)).epsilon(1e-12));
   CHECK(creeping[0].growth_rate_1_s == Approx(8).epsilon(1e-12));
   CHECK_FALSE(creeping[1].is_unstable());
-  // Without stiffness the growing eigenvalue is alone.
+  // Without stiffness the growing eigenvalue has no partner.
   CHECK(modes_with(0, -0.7, 100, 0)[0].growth_rate_1_s == Approx(0.7).epsilon(1e-12));
 }
 
 TEST_CASE("about a kink a model swings on the mean stiffness of both sides, and says so") {
-  // A weight on a rail, with a spring that is stiffer against being lifted.
+  // A weight on a rail, with a spring that is stiffer when lifted.
   Model model;
   model.bodies = {{"ground", PrescribedBody{}, {}},
                   {"weight", RigidBody{2, Vector3d::Zero(), Eigen::Matrix3d::Identity()}, {}}};

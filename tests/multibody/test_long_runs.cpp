@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kLength_m = 0.5;
 
-/// A flexible bar without damping on a pin, released at 60 degrees from straight down.
+/// A flexible bar without damping on a revolute joint, released at 60 degrees from straight down.
 Model flexible_pendulum() {
   Beam beam;
   beam.length_m = kLength_m;
@@ -37,7 +37,7 @@ Model flexible_pendulum() {
   return build.model;
 }
 
-/// Largest change of the total energy over what is exchanged, over 100 periods.
+/// Largest change of the total energy over 100 periods, relative to the exchanged energy.
 double drift(Formulation formulation, double tolerance) {
   // The period of a rigid bar, T = 2 pi sqrt(2 L / 3 g), and 7 % more at 60 degrees.
   const double period_s = 1.07 * 2 * std::numbers::pi * std::sqrt(2 * kLength_m / (3 * kGravity));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Closed loops: redundant rows, motors that drive everything, starts that fit.
+// Closed loops: redundant rows, motors that prescribe all motions, fitting initial velocities.
 #include <cmath>
 #include <string>
 
@@ -23,9 +23,9 @@ RigidBody bar(double length) {
   return {1, {length / 2, 0, 0}, Vector3d(1e-3, 0.02, 0.02).asDiagonal()};
 }
 
-/// Cranks of 0.2 and 0.4 m, 0.5 m apart, and a coupler of 0.5 m, on pins about z; all velocities
-/// are open. The crank starts at 1 rad.
-/// @param skew_rad  by which the last pin is out of line, about x
+/// Cranks of 0.2 and 0.4 m, 0.5 m apart, and a coupler of 0.5 m, on revolute joints about z; all
+/// velocities are open. The crank starts at 1 rad.
+/// @param skew_rad  misalignment of the last joint, about x
 ModelBuilder four_bar(double skew_rad = 0) {
   constexpr double kCoupler = 0.47391117506640706;
   constexpr double kRocker = 1.4380176710407748;
@@ -65,7 +65,7 @@ const OutputOptions kOutput{.end_time_s = 0.5, .interval_s = 0.05};
 
 TEST_CASE("velocities that nobody gives fit the motor that starts a loop") {
   Model model = four_bar().model;
-  // From rest but for rounding of its rate, and at speed.
+  // The crank starts at rest except for rounding of its rate, and at speed.
   const double rate = GENERATE(1e-17, 8.0);
   add_motor(model, 0, 1, rate, 2);
   const History history = simulate(model, kTight, kOutput);
@@ -131,7 +131,7 @@ TEST_CASE("a ring of pins moves as one of balls, its rank found once") {
       const double length = along.norm();
       const RigidBody link{0.1, {length / 2, 0, 0}, Vector3d(1e-6, 2e-5, 2e-5).asDiagonal()};
       const auto body = build.body("link " + name, link, {at(k), turn});
-      // The first one keeps the links from turning about themselves.
+      // The first joint prevents the links from rotating about themselves.
       build.joint("joint " + name, k == 0 ? &kRevoluteJoint : kind, before,
                   build.marker("begin " + name, body));
       before = build.marker("end " + name, body, {length, 0, 0});

@@ -25,21 +25,21 @@ using namespace flexneck::multibody;
 
 namespace {
 
-/// Not in the plane of a pin.
+/// Gravity with a component out of the plane of a revolute joint.
 const Vector3d kOblique(0, 2, -kGravity);
 
-/// In the plane of x and z.
+/// A rotation in the plane of x and z.
 Eigen::Quaterniond turned(double angle) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitY()));
 }
 
-/// Of the given inertia about every axis through its centre.
+/// A body with the given moment of inertia about every axis through its centre.
 RigidBody body_of(double mass_kg, double moment, const Vector3d& center_m = Vector3d::Zero()) {
   return {mass_kg, center_m, moment * Matrix3d::Identity()};
 }
 
-/// Two cranks of a metre hang from the ground, two metres apart, at an angle, and carry a bar.
-/// Its joints are named with the prefix.
+/// Adds two cranks of one metre that hang from the ground, two metres apart, at an angle, and carry
+/// a bar. The names of its joints have the prefix.
 void add_parallelogram(ModelBuilder& build, std::size_t ground, const std::string& prefix,
                        const Vector3d& place, double angle, double mass_kg, double moment) {
   const Eigen::Quaterniond R = turned(angle);
@@ -58,7 +58,8 @@ void add_parallelogram(ModelBuilder& build, std::size_t ground, const std::strin
   build.marker(prefix + "tip", bar);
 }
 
-/// A link of two metres between a heavy body that hangs from the ground and one that hangs from it.
+/// Adds a link of two metres between a heavy body that hangs from the ground and one that hangs
+/// from the link.
 void add_chain(ModelBuilder& build, std::size_t ground) {
   const RigidBody heavy = body_of(1000, 5000, {0, 0, -0.5});
   const Eigen::Quaterniond R = turned(0.7);
@@ -82,7 +83,7 @@ double largest_difference(const History& a, const History& b, const std::string&
   return (a.marker(marker).position_m - b.marker(marker).position_m).cwiseAbs().maxCoeff();
 }
 
-/// A point of 2 kg, 0.8 m from a joint at the ground, at an angle.
+/// A point mass of 2 kg, 0.8 m from a joint at the ground, at an angle.
 Model point_pendulum(const JointKind* kind, double angle) {
   ModelBuilder build;
   build.model.gravity_m_s2 = {0, 0, -kGravity};
@@ -139,7 +140,7 @@ TEST_CASE("a light link between heavy bodies moves as in joint coordinates, besi
 
 TEST_CASE("a point mass on a pin swings with the period of the elliptic integral") {
   constexpr double kAngle = 2.0;
-  // By the arithmetic-geometric mean: T = 2 pi sqrt(l / g) / agm(1, cos(angle / 2)).
+  // Period by the arithmetic-geometric mean: T = 2 pi sqrt(l / g) / agm(1, cos(angle / 2)).
   double a = 1;
   double b = std::cos(kAngle / 2);
   for (int k = 0; k < 6; ++k) {
@@ -172,7 +173,7 @@ TEST_CASE("an output that misses a joint ends a run, with the joint's name") {
   equations->derivative(0, state, rate);
   Recorder recorder(model, OutputOptions{1, 0.5});
   CHECK_NOTHROW(equations->record(0, state, recorder, 0));
-  // A quarter of a turn away from the joint's axis: one step of Newton's method is far off.
+  // A quarter of a turn away from the joint's axis one step of Newton's method is far off.
   state.segment<4>(3) << std::cos(0.75), std::sin(0.75), 0, 0;
   CHECK_THROWS_AS(equations->record(0.5, state, recorder, 1), ComputationError);
   CHECK_THROWS_WITH(equations->record(0.5, state, recorder, 1),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A modal body whose root is held obeys linear equations, however large its motion: closed forms.
+// A modal body whose root is fixed obeys linear equations, however large its motion: closed forms.
 #include <cmath>
 #include <complex>
 #include <numbers>

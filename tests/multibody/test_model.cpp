@@ -25,7 +25,7 @@ Model sound_model() {
 RigidBody& head_of(Model& model) { return std::get<RigidBody>(model.bodies[2].kind); }
 DeformableBody& neck_of(Model& model) { return std::get<DeformableBody>(model.bodies[1].kind); }
 
-/// What check() says of a model that is sound but for one change.
+/// Message of check() for a sound model with one change.
 std::string complaint(const std::function<void(Model&)>& spoil) {
   Model model = sound_model();
   spoil(model);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A model as bytes: what an FMU carries.
+// Serialisation of a model, as an FMU carries it.
 #include <string>
 #include <string_view>
 
@@ -15,7 +15,7 @@ using namespace flexneck::multibody;
 
 namespace {
 
-/// With every kind of body, joint and force that has a place in an archive.
+/// A model with every kind of body, joint and force that can be archived.
 Model model_of_all_kinds() {
   Model model = testing::forest(true);
   const std::size_t i = model.marker_index("d end");

@@ -21,13 +21,13 @@ constexpr double kMotionEnd_s = 0.5;
 const SolverOptions kSolver{.relative_tolerance = 1e-10, .absolute_tolerance = 1e-12};
 const Vector3d kAxis(0.6, 0, 0.8);
 
-/// Four turns and back a little.
+/// A motion of four turns and a little back.
 SmoothMotion winding() {
   return SmoothMotion::of_displacement([](double t) { return 60 * t - 3 * std::sin(9 * t); },
                                        kMotionEnd_s);
 }
 
-/// A pendulum whose pivot is turned as winding() says, by a motor or by a prescribed body.
+/// A pendulum whose pivot rotates by winding(), prescribed by a motor or by a prescribed body.
 ModelBuilder turned_pendulum(bool by_motor) {
   ModelBuilder build;
   build.model.gravity_m_s2 = {1, 2, -9};
@@ -67,7 +67,7 @@ TEST_CASE("a motor on the ground moves what hangs on it as a prescribed body doe
     CHECK((a.position_m - b.position_m).cwiseAbs().maxCoeff() < 1e-7);
     CHECK((a.acceleration_m_s2 - b.acceleration_m_s2).norm() < 1e-6 * b.acceleration_m_s2.norm());
   }
-  // Joint histories are in the axes of marker i, which turns with the prescribed body.
+  // Joint histories are in the axes of marker i, which rotates with the prescribed body.
   const Eigen::Matrix3d R =
       Eigen::AngleAxisd(winding().displacement_m(motor.time_s[last]), kAxis).toRotationMatrix();
   const auto compare = [&](const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {

@@ -24,7 +24,7 @@ using namespace flexneck::multibody;
 
 namespace {
 
-/// At this step differences of order 6 leave below 1e-8 of accelerations of the order of 10.
+/// Step at which differences of order 6 leave less than 1e-8 of accelerations of the order of 10.
 constexpr double kStep = 4e-3;
 constexpr double kTolerance = 1e-7;
 

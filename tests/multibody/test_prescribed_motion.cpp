@@ -31,8 +31,8 @@ SmoothMotion swing() {
                                        kEnd_s);
 }
 
-/// Everything at once: a travel by a table and a function, a turn by a rate, a table and a
-/// function.
+/// A path of all parts: a translation by a table and a function, a rotation by a rate, a table and
+/// a function.
 PrescribedPath path() {
   PrescribedBody body;
   body.direction = Vector3d(1, 2, -2) / 3;
@@ -52,8 +52,8 @@ constexpr double kMass_kg = 2;
 constexpr double kRadius_m = 0.3;
 constexpr double kInertia_kg_m2 = 0.05;
 
-/// The table leaves the rod no freedom, so that no error shortens the steps over which work is
-/// summed.
+/// Solver options with short steps: the table leaves the rod no freedom, so that no error shortens
+/// the steps over which work is summed.
 SolverOptions short_steps() {
   SolverOptions solver = solver_of(1e-9, 1e-12);
   solver.max_step_s = 5e-3;
@@ -83,7 +83,7 @@ ModelBuilder on_turntable() {
 TEST_CASE("velocities and accelerations of a prescribed body are derivatives of its motion") {
   const PrescribedPath prescribed = path();
   constexpr double kStep_s = 1e-4;
-  // Of fourth-order differences of motions with rates of some 10 / s; rounding 1e-16 / step.
+  // Error of fourth-order differences of motions with rates of some 10 / s; rounding 1e-16 / step.
   constexpr double kTolerance = 1e-8;
   for (const double t : {0.05, 0.31}) {
     const PrescribedMotion motion = prescribed.at(t);
@@ -123,7 +123,7 @@ TEST_CASE("a rod clamped to a table that swings is carried, loaded and driven as
       CHECK(found.angular_acceleration_rad_s2(2, k) ==
             Approx(rate_rate).margin(kTolerance * kRate * kRate));
     }
-    // In the axes of the seat, which turns; the moment is about the axis of the table.
+    // The force is in the axes of the rotating seat; the moment is about the axis of the table.
     const JointHistory& clamp = history.joint("clamp");
     CHECK(clamp.force_N(0, k) == Approx(-kMass_kg * kRadius_m * rate * rate).margin(1e-5));
     CHECK(clamp.force_N(1, k) == Approx(kMass_kg * kRadius_m * rate_rate).margin(1e-5));
@@ -155,7 +155,7 @@ TEST_CASE("a pendulum on the axis of a wheel does not feel the wheel turn") {
   const History still = swinging(false);
   CHECK((turning.marker("cg").position_m - still.marker("cg").position_m).cwiseAbs().maxCoeff() <
         1e-8);
-  // A pin passes no moment about its axis: the wheel does no work.
+  // A revolute joint transmits no moment about its axis: the wheel does no work.
   CHECK(turning.energy.work_J.cwiseAbs().maxCoeff() < 1e-8);
   CHECK(turning.marker("hub").position_m.isApprox(still.marker("hub").position_m, 1e-14));
 }
@@ -176,11 +176,11 @@ TEST_CASE("a spring takes in the work that a turning body does on it") {
 
 TEST_CASE(
     "a turning body works on what slides along it, whichever of the two the joint begins at") {
-  // Along the slider a bead flies away as cosh(w t). Its centre is off the slider and the slider
+  // Along the slider a bead moves away as cosh(w t). Its centre is off the slider and the slider
   // off the axis: every arm of the reaction counts.
   constexpr double kSpin = 6;            // rad/s
   const Vector3d seat(0.1, -0.15, 0);    // on the wheel; the slider runs along x
-  const Vector3d centre(0.02, 0.05, 0);  // of the bead, from its marker
+  const Vector3d centre(0.02, 0.05, 0);  // centre of the bead, relative to its marker
   const bool wheel_first = GENERATE(true, false);
   ModelBuilder build;
   PrescribedBody prescribed;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reactions of a moving chain with every kind of joint against cuts: what a joint carries is the
-// rate of momentum of all that hangs on it, less gravity.
+// Reactions of a moving chain with every kind of joint, by cuts: a joint's reaction is the rate of
+// momentum of all bodies beyond it, less gravity.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -26,10 +26,10 @@ const std::vector<const JointKind*> kKinds = {
     &kSphericalJoint, &kFixedJoint,       &kPlanarJoint,    &kScrewJoint};
 constexpr double kOutputInterval_s = 1e-3;
 constexpr double kLead_m = 0.2;
-/// Differences over 1 ms of momenta known to 1e-10.
+/// Tolerance of differences over 1 ms of momenta known to 1e-10.
 constexpr double kTolerance = 1e-7;
 
-/// A body on each joint; every other joint is given from its outer end.
+/// A chain with a body on each joint; every other joint is defined from its outer end.
 Model chain() {
   RandomNumbers random(71);
   ModelBuilder build;
@@ -53,7 +53,7 @@ Model chain() {
   return build.model;
 }
 
-/// Force and moment about a point that everything from body `first` on needs.
+/// Force and moment about a point needed for the motion of all bodies from `first` on.
 struct Load {
   Vector3d force, moment;
 };
@@ -99,7 +99,7 @@ TEST_CASE("every joint of a chain carries what hangs on it") {
       CHECK((moment - expected.moment).norm() < kTolerance * (1 + expected.moment.norm()));
     }
   }
-  // It has moved far.
+  // The last body has moved far.
   const Eigen::Matrix3Xd& path = history.marker("cg 5").position_m;
   CHECK((path.col(200) - path.col(0)).norm() > 0.1);
 }

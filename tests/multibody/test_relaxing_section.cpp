@@ -27,7 +27,7 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 namespace {
 
-/// A block on a slide, held to the ground by a section along x that relaxes.
+/// A block on a slide, connected to the ground by a section along x that relaxes.
 struct RelaxingOscillator {
   double mass_kg = 2;
   double slow_N_m = 300;  ///< stiffness of slow motions
@@ -51,7 +51,7 @@ struct RelaxingOscillator {
     return build.model;
   }
 
-  /// x'' = -(slow x + sum k (x - z)) / m, z' = (x - z) / tau.
+  /// System matrix of x'' = -(slow x + sum k (x - z)) / m, z' = (x - z) / tau.
   Eigen::MatrixXd matrix() const {
     const auto n = static_cast<Eigen::Index>(branches.size());
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 + n, 2 + n);
@@ -67,7 +67,7 @@ struct RelaxingOscillator {
     return A;
   }
 
-  /// Where the block is, started from rest of its branches with the velocity given.
+  /// Position of the block, started with the given velocity and relaxed branches.
   double position_m(double velocity_m_s, double time_s) const {
     const Eigen::EigenSolver<Eigen::MatrixXd> eigen(matrix());
     const Eigen::VectorXcd start =
@@ -79,7 +79,7 @@ struct RelaxingOscillator {
   }
 };
 
-/// Two bodies that tumble, held together by a section with a branch, and the first by another to a
+/// Two tumbling bodies, connected by a section with a branch, the first also by another one to a
 /// moving sled.
 Model tumbling_pair() {
   RandomNumbers random(91);

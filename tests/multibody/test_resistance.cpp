@@ -59,7 +59,8 @@ TEST_CASE("a resistance loads and unloads each of its sides by that side's own l
   struct Expected {
     double x, v, load, stored_J, lost_W;
   };
-  // Loaded 30 + 40 N, at rest 3/4 of it; at half the full rate half of what is lost besides 0.4 v.
+  // Loading 30 + 40 N, at rest 3/4 of it; at half the full rate half of the dissipated part plus
+  // 0.4 v.
   const double at_rest_N = 0.75 * 70;
   const double stored_J = 0.75 * (4.5 + 2);
   for (const Expected& at : {Expected{0.3, 1, at_rest_N + 8.75 + 0.4 + 0.4, stored_J, 9.55},
@@ -107,7 +108,7 @@ TEST_CASE("a law's pieces change where its load has a kink, and nowhere else") {
   CHECK(same(0.15, 0.49, 0.15, 0.51) == (resistance.friction == 0));
   CHECK(same(0.15, -0.49, 0.15, -0.51) == (resistance.friction == 0));
   CHECK(same(0.15, -0.4, 0.15, 0.4));
-  // The same line on both sides has no kink at zero; a rope has.
+  // The same line on both sides has no kink at zero; a rope has one.
   resistance.positive = resistance.negative;
   CHECK(same(-1, 0.1, 1, 0.1));
   resistance.positive.curve = LoadCurve::table({0, 0.5, 1}, {0, 15, 16});

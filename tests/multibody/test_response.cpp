@@ -17,7 +17,7 @@ VectorXd millisecond_grid(Eigen::Index count) {
   return VectorXd::LinSpaced(count, 0, 1e-3 * static_cast<double>(count - 1));
 }
 
-/// level + exp(-zeta w t) cos(wd t + phase).
+/// Signal level + exp(-zeta w t) cos(wd t + phase).
 VectorXd damped_wave(const VectorXd& time_s, double frequency_Hz, double zeta, double phase,
                      double level) {
   const double w = 2 * kPi * frequency_Hz;

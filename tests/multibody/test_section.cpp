@@ -26,7 +26,8 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 namespace {
 
-/// A straight slender beam from its base to its end along z: end loads over end motions.
+/// Stiffness of a straight slender beam from its base to its end along z: end loads over end
+/// motions.
 Matrix6d beam_stiffness(double length_m, double EA, double EI, double GJ) {
   const double l = length_m;
   Matrix6d K = Matrix6d::Zero();
@@ -121,7 +122,7 @@ TEST_CASE(
   constexpr double kSlope = kEI / kLength_m;
   Section section{"beam", 0, 1, {0, 0, kLength_m}, beam_stiffness(kLength_m, 4e4, kEI, 5)};
   section.bending_curve = LoadCurve::table({0, 0.1, 0.5, 1}, {0, 2, 14, 50});
-  // A first slope of 20: the stiffness has another, by which the curve is multiplied.
+  // The curve's first slope is 20; the stiffness has another one, by which the curve is scaled.
   for (const double turn : {0.05, 0.3, 0.8}) {
     const double radius = kLength_m / turn;
     MarkerKinematics end;

@@ -74,7 +74,7 @@ TEST_CASE("gaps open to the least energy, whatever the motion and the dashpots a
       moved.tail(gaps) = (strain.tail(gaps) + step * random.vector(gaps)).cwiseMax(0.0);
       REQUIRE(energy(section, moved, dashpots) >= least * (1 - 1e-14));
     }
-    // The bits say what is open.
+    // The bits say which gaps are open.
     for (Index k = 0; k < gaps; ++k) REQUIRE((open >> k & 1) == (strain[6 + k] > 0 ? 1 : 0));
   }
 }
@@ -116,7 +116,7 @@ TEST_CASE("with gaps and dashpots, too, a section's load is the gradient of its 
 }
 
 TEST_CASE("a block on a slit swings half a period on the open and half on the closed stiffness") {
-  // The gap opens as the block moves ahead: K = [k, -c; -c, k_g], open k - c^2 / k_g.
+  // The gap opens as the block moves ahead: K = [k, -c; -c, k_g], stiffness k - c^2 / k_g if open.
   constexpr double kMass = 1.5;
   constexpr double kClosed = 700;
   constexpr double kCoupling = 300;

@@ -22,7 +22,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// A sled that brakes between 10 and 30 ms, jumping at both ends, with a modal neck and a head.
+/// A sled that brakes between 10 and 30 ms, with jumps at both ends, with a modal neck and a head.
 Model sled() {
   Model model;
   model.gravity_m_s2 = {0, 0, -9.81};
@@ -65,7 +65,7 @@ TEST_CASE("the energies of a braked sled balance to the tolerance") {
     const VectorXd balance =
         e.kinetic_J + e.gravitational_J + e.strain_J + e.dissipated_J - e.work_J;
     const double drift = (balance.array() - balance[0]).abs().maxCoeff();
-    // Some hundred steps, each with an error of the tolerance's size.
+    // There are some hundred steps, each with an error of the tolerance's size.
     CHECK(drift < 10 * relative * e.kinetic_J.maxCoeff());
     CHECK(e.dissipated_J.tail(1)[0] > 1);
     CHECK(e.work_J.tail(1)[0] < -10);
@@ -88,7 +88,7 @@ TEST_CASE("joints stay closed at every output time, to rounding") {
       CHECK(each->maxCoeff() < 10 * kRounding);
     }
     CHECK((missed.position_m.maxCoeff() > 0) == (formulation == Formulation::descriptor));
-    // What the motion of the markers says itself, in either form.
+    // Residuals by the motion of the markers alone, in either form.
     for (const auto& [i, j] : {std::pair{"sled", "root"}, std::pair{"tip", "head"}}) {
       const MarkerHistory& lower = history.marker(i);
       const MarkerHistory& upper = history.marker(j);
@@ -210,8 +210,8 @@ TEST_CASE("outputs that are handed on in blocks are those of a whole run") {
 }
 
 TEST_CASE("an output of a history has 19 numbers a marker, 6 a joint, one a mode and ten more") {
-  // Positions, velocities, accelerations, angular ones, a quaternion; force and moment; time, five
-  // energies and four residuals.
+  // Per marker: position, velocity, acceleration, angular velocity and acceleration, a quaternion;
+  // per joint: force and moment; then time, five energies and four residuals.
   const Model model = sled();
   CHECK(numbers_per_output(model) == 19 * 5 + 6 * 2 + 4 + 10);
 }
@@ -225,14 +225,14 @@ TEST_CASE("joints that repeat each other are named and move nothing") {
   CHECK(history.redundant_constraints[0] == "joint 'again', position row 1");
   CHECK((history.marker("head").position_m - once.marker("head").position_m).cwiseAbs().maxCoeff() <
         1e-8);
-  // The force goes through either joint; the moment and what is below are determined.
+  // Either joint may carry the force; the moment and the loads below are determined.
   CHECK(history.joint("again").undetermined == "force x, force y, force z");
   CHECK(history.joint("top").undetermined == "force x, force y, force z");
   CHECK(history.joint("base").undetermined.empty());
   CHECK(once.redundant_constraints.empty());
 }
 
-/// A force beyond every bound, from 5 ms on.
+/// A model with an unbounded force from 5 ms on.
 Model wild_sled() {
   Model wild = sled();
   wild.forces.add(

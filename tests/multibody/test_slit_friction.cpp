@@ -36,7 +36,7 @@ Section random_section(RandomNumbers& random, Index gaps, Index slides) {
   return section;
 }
 
-/// What a section answers to a place of its top, with what it remembers.
+/// Response of a section with memory to a position of its top.
 class Acting {
  public:
   explicit Acting(const Section& section)
@@ -45,7 +45,7 @@ class Acting {
             VectorXd::Zero(static_cast<Index>(section.branch_count()) * section.branch_size())),
         rates(internal) {}
 
-  /// @param length_s  of a step from the present to this place; 0: the memory stays
+  /// @param length_s  duration of a step from the present to this position; 0: the memory is kept
   void to(const MarkerKinematics& top, double length_s) {
     std::vector<BranchStep> steps;
     for (std::size_t b = 0; b < section_.branch_count(); ++b)
@@ -91,7 +91,7 @@ MarkerKinematics random_place(RandomNumbers& random) {
 }  // namespace
 
 TEST_CASE("shut sides stick below mu N, and a cycle beyond takes 4 mu N (X - mu N / k)") {
-  // A spring k along x in line with the sides, pressed by k_n along z.
+  // A spring k along x in series with the sides, pressed by k_n along z.
   constexpr double k = 4e4;
   constexpr double k_n = 9e5;
   constexpr double kPressed = 2e-4;
@@ -127,7 +127,7 @@ TEST_CASE("shut sides stick below mu N, and a cycle beyond takes 4 mu N (X - mu 
   const double largest_m = 3 * most_N / k;
   CHECK(loss_of_cycle(largest_m) == Approx(4 * most_N * (largest_m - most_N / k)).epsilon(1e-3));
 
-  // Opened, nothing holds the sides.
+  // Once open, the sides are free.
   Acting slit(section);
   slit.to(at({largest_m, 0, -kPressed}), 1e-3);
   slit.to(at({largest_m, 0, kPressed}), 1e-3);
@@ -150,7 +150,7 @@ TEST_CASE("friction takes energy and gives none, whatever the state") {
     REQUIRE(slit.sums.lost_W >= 0);
     slipped += slit.load.piece.rate % 2;
     shut += slit.load.piece.deflection == 0 ? 1 : 0;
-    // Held in its place, it loses energy over steps of any length, and no more than it had.
+    // At a fixed position it loses energy over steps of any length, and no more than it had.
     for (const double length_s : {1e-5, 1e-3, 0.1, 10.}) {
       const double stored_J = slit.sums.stored_J;
       slit.to(place, length_s);
@@ -184,7 +184,7 @@ TEST_CASE("a slit with friction ends on the bounds of its law: stuck, or slippin
     CHECK(free.sums.stored_J <= slit.sums.stored_J * (1 + 1e-12));
     const double s = slit.internal[size - 1];
     if (slit.load.piece.deflection != (1 << gaps) - 1) (s == 0 ? stuck : slips) += 1;
-    // Wholly open, it is where no load is on it.
+    // If it is wholly open, it is where no load acts on it.
     if (slit.load.piece.deflection == (1 << gaps) - 1)
       CHECK(slit.sums.stored_J == Approx(free.sums.stored_J).epsilon(1e-7));
   }

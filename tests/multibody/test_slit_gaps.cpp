@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Slits of a deformable body.
+// Tests of slits of a deformable body.
 #include <cmath>
 #include <numbers>
 
@@ -30,7 +30,7 @@ MatrixXd random_stiffness(RandomNumbers& random, Index size) {
   return root * root.transpose() + 0.05 * MatrixXd::Identity(size, size);
 }
 
-/// With gaps that take a good part of the modes' stiffness where they open.
+/// A body with gaps that reduce the modes' stiffness considerably where they open.
 DeformableBody slit_body(RandomNumbers& random, Index gaps) {
   DeformableBody body = deformable(make_point_mass_body(51, 3).body, 0);
   const VectorXd omega = 2 * std::numbers::pi * body.modes.frequencies_Hz;
@@ -43,7 +43,7 @@ DeformableBody slit_body(RandomNumbers& random, Index gaps) {
   return body;
 }
 
-constexpr double kTaken = 0.4;  // of the stiffness, by the open slit
+constexpr double kTaken = 0.4;  // fraction of the stiffness lost by the open slit
 
 /// A body of one mode of 3 Hz, whose slit opens as its coordinate grows, clamped to the ground.
 Model clamped_slit_body(double coordinate, double rate) {

@@ -34,7 +34,7 @@ TEST_CASE("a displacement given by a function has its exact velocity and acceler
 }
 
 TEST_CASE("an acceleration given by a function has its exact integrals, past kinks and jumps") {
-  // Half a sine, then nothing: a kink at 80 ms. A step at a time that halving never meets.
+  // Half a sine, then zero: a kink at 80 ms. Then a step at a time that halving never reaches.
   constexpr double kEnd = 0.08;
   constexpr double kJump = 0.1234567;
   const auto motion = SmoothMotion::of_acceleration(
@@ -50,7 +50,7 @@ TEST_CASE("an acceleration given by a function has its exact integrals, past kin
   const double lost = -200 * 2 * kEnd / std::numbers::pi;
   CHECK(motion.velocity_m_s(0.1) == Approx(lost).epsilon(1e-13));
   CHECK(motion.velocity_m_s(0.3) == Approx(lost + 30 * (0.3 - kJump)).epsilon(1e-13));
-  // Of half a sine the displacement at its end is half of what its final velocity would make.
+  // The displacement at the end of half a sine is half of that at its final velocity.
   CHECK(motion.displacement_m(0.3) ==
         Approx(lost * (0.3 - kEnd / 2) + 15 * std::pow(0.3 - kJump, 2)).epsilon(1e-13));
   CHECK(motion.acceleration_m_s2(0.04) == Approx(-200).epsilon(1e-13));
@@ -68,13 +68,14 @@ TEST_CASE("no feature longer than the resolution vanishes, wherever it is in a l
         const auto sine = [=](double t) {
           return inside(t) ? -100 * std::sin(kPi * (t - begin) / length) : 0;
         };
-        // Rounding of the times of 600 s leaves 1e-9 of 0.1 ms.
+        // Rounding of the times of 600 s is 1e-9 of 0.1 ms.
         CHECK(SmoothMotion::of_acceleration(sine, end).velocity_m_s(end) ==
               Approx(-200 * length / kPi).epsilon(3e-9));
         const auto box = [=](double t) { return inside(t) ? 7.0 : 0.0; };
         CHECK(SmoothMotion::of_acceleration(box, end).velocity_m_s(end) ==
               Approx(7 * length).epsilon(3e-9));
-        // Its acceleration jumps at both ends; of shorter ones, rounding of the times hides how.
+        // Its acceleration jumps at both ends; for shorter ones rounding of the times hides the
+        // size of the jump.
         if (length < 1e-3 || end > 100) continue;
         const auto bump = [=](double t) {
           return inside(t) ? 0.01 * (1 - std::cos(2 * kPi * (t - begin) / length)) / 2 : 0;
@@ -119,7 +120,7 @@ TEST_CASE("a motion that is not smooth enough or not a number is refused") {
                     Contains("is not piecewise smooth, e.g. at 0.5 s"));
   CHECK_THROWS_WITH(SmoothMotion::of_acceleration([](double t) { return 1 / (t - 0.25); }, 1.0),
                     Contains("is not piecewise smooth, e.g. at 0.2"));
-  // Halving meets this one exactly.
+  // Halving reaches this one exactly.
   CHECK_THROWS_AS(SmoothMotion::of_displacement([](double t) { return std::abs(t - 0.5); }, 1.0),
                   InputError);
   const auto step =

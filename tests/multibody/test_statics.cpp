@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Static equilibrium, what a load cell reads in it, and small motions about it.
+// Static equilibrium, the reading of a load cell in it, and small motions about it.
 #include <cmath>
 #include <numbers>
 
@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// SAE J211 channel of the joint "OC" between a held chest and a head that a force acts on.
+/// SAE J211 channels of the joint "OC" between a fixed chest and a head on which a force acts.
 VectorXd channels_of_manipulation(const Vector3d& at_m, const Vector3d& force_N) {
   ModelBuilder build;
   const auto chest = build.marker("chest", build.ground());
@@ -36,7 +36,7 @@ VectorXd channels_of_manipulation(const Vector3d& at_m, const Vector3d& force_N)
 }  // namespace
 
 TEST_CASE("Load-cell channels have the signs of SAE J211's manipulations of the head") {
-  // Axes: x forward, y left, z up. Points of the head and what a hand does there.
+  // Axes: x forward, y left, z up. Points of the head and forces of a hand on them.
   const Vector3d forward(1, 0, 0);
   const Vector3d left(0, 1, 0);
   const Vector3d up(0, 0, 1);
@@ -53,7 +53,7 @@ TEST_CASE("Load-cell channels have the signs of SAE J211's manipulations of the 
   CHECK(channels(kArm_m * left, -up)[3] == Approx(moment));      // Mx: left ear down
   CHECK(channels(kArm_m * forward, -up)[4] == Approx(moment));   // My: chin to sternum
   CHECK(channels(kArm_m * forward, left)[5] == Approx(moment));  // Mz: chin to the left
-  // A force through the joint makes no moment, one at an arm only its own.
+  // A force through the joint has no moment, one at an arm only its own.
   CHECK(channels(joint, up).tail<3>().norm() < 1e-9);
   CHECK(channels(kArm_m * left, -up).tail<2>().norm() < 1e-9);
 }
@@ -73,7 +73,7 @@ TEST_CASE("Hanging at rest, the head's joint carries the head and the base both,
     const VectorXd base = sae_j211(history.joint("neck base")).col(k);
     CHECK(base[2] == Approx(weight).epsilon(1e-9));
     CHECK(base.head<2>().norm() < 1e-6);
-    // The load cell in the head's joint has turned with the neck's top.
+    // The load cell in the head's joint has rotated with the neck's top.
     const auto turn = rotation_at(history.marker("neck top").rotation, k);
     const Vector3d up = turn.conjugate() * Vector3d(0, 0, head_weight);
     CHECK((history.joint("OC").force_N.col(k) - up).norm() < 1e-7 * head_weight);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Runs that others drive: from rest, under guards.
+// Runs driven by the caller: from rest, with guards.
 #include <cmath>
 #include <functional>
 
@@ -22,7 +22,7 @@ constexpr double kMass = 2;         ///< kg
 constexpr double kPush = 10;        ///< N along x
 constexpr double kStiffness = 200;  ///< N/m
 
-/// A block by a joint on the ground, at which a force pushes that is nothing yet.
+/// A block connected to the ground by a joint, with a force on it that is zero initially.
 Model block(const JointKind* kind, const Vector3d& center_m) {
   ModelBuilder build;
   build.ground();
@@ -38,7 +38,7 @@ Model block(const JointKind* kind, const Vector3d& center_m) {
 struct Resting {
   const char* name;
   Model model;
-  std::function<double(double)> x_m;  ///< of marker block.at, with the push from time zero on
+  std::function<double(double)> x_m;  ///< x of marker block.at, with the push from time zero on
 };
 
 std::vector<Resting> resting() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The recursive formulation against the descriptor form, which shares with it the model, the
+// The recursive formulation, compared with the descriptor form, which shares with it the model, the
 // invariants and the coefficients of a rotation vector's series.
 #include <catch2/catch.hpp>
 
@@ -82,7 +82,7 @@ TEST_CASE("both formulations give the same accelerations, reactions and powers a
   const VectorXd absolute = descriptor_state(system, dynamics);
   VectorXd absolute_rate = VectorXd::Zero(absolute.size());
   equations.evaluate(kTime_s, absolute, absolute_rate);
-  // The tree keeps the joints, in velocity too.
+  // The tree satisfies the joints, in velocity too.
   REQUIRE(equations.position_residual().lpNorm<Eigen::Infinity>() < 1e-14);
   REQUIRE(equations.velocity_residual().lpNorm<Eigen::Infinity>() < 1e-13);
 
@@ -133,7 +133,7 @@ TEST_CASE(
   VectorXd same(state.size());
   reactions.fill_rate(state, reactions.accelerations(), same);
   CHECK(rate == same);
-  // Forces too; the moment is what was left out.
+  // Forces are equal too; only the moment was left out.
   CHECK(motion.joint_reaction(0).force_N == reactions.joint_reaction(0).force_N);
   CHECK((motion.joint_reaction(0).moment_Nm == reactions.joint_reaction(0).moment_Nm) == turns);
 }
@@ -202,7 +202,7 @@ TEST_CASE("a tree's joint coordinates are found again from the motion of its bod
   for (std::size_t b = 0; b < tree.bodies.size(); ++b) bodies.push_back(dynamics.body_state(b));
   VectorXd found = state_of(tree, bodies);
   for (const tree::TreeBody& body : tree.bodies) {
-    // Of the two quaternions of a rotation either will do.
+    // A rotation has two quaternions; either is right.
     const Index nq = body.joint.position_count();
     if (nq == body.joint.velocity_count()) continue;
     auto q = found.segment<4>(body.position + nq - 4);

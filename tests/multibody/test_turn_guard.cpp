@@ -15,7 +15,7 @@ using namespace flexneck::testing;
 
 namespace {
 
-/// A body that spins about z from rest of its bushing on.
+/// A body that spins about z, starting where its bushing is unloaded.
 Model spinning(double rate_rad_s, double stiffness_Nm) {
   Model model;
   model.bodies = {{"ground", PrescribedBody(), {}},
@@ -40,7 +40,7 @@ TEST_CASE("a bushing that is turned by more than 3 rad ends the run there") {
   // 1 N m/rad on 1 kg m^2: the rotation is rate sin(t), 2 rad at most.
   CHECK_NOTHROW(simulate(spinning(rate, 1), solver, {.end_time_s = 7, .interval_s = 0.01}));
   try {
-    // 3.5 sin(t) rad, were it not for half a turn: 3 rad at 1.03 s.
+    // 3.5 sin(t) rad without the limit of half a turn: 3 rad at 1.03 s.
     simulate(spinning(1.75 * rate, 1), solver, {.end_time_s = 7, .interval_s = 0.01});
     FAIL("expected the run to end");
   } catch (const IncompleteRun& run) {

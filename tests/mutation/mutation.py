@@ -21,8 +21,8 @@ from pathlib import Path
 import sites
 
 ROOT = Path(__file__).resolve().parents[2]
-# Folders whose code is changed, and the tests that should notice: what stands before the colon of their
-# names. The last ones of a room reach its code through the command.
+# Folders whose code is changed, and the tests that should notice, by the part of their names before
+# the colon. The last tests of a folder reach its code through the command.
 ROOMS = {
     "mesher": (["mesher"], ["mesh", "shape_functions", "mesher", "partition", "drawing", "exchange", "neck", "chain",
                             "golden"]),
@@ -34,7 +34,7 @@ ROOMS = {
                   "pipeline/verdict"],
                  ["pipeline", "verdict", "models", "command", "chain", "report", "golden"]),
 }
-SCRIPTS = {"golden"}  # tests without a program of their own; they run the command
+SCRIPTS = {"golden"}  # tests without a program of their own, which run the command
 DEFAULT = ["fe_modal", "mesher", "multibody", "pipeline"]
 SWITCH = """#pragma once
 #ifdef __cplusplus
@@ -48,7 +48,7 @@ inline bool flexneck_mutant(int number) {
 }
 #endif
 """
-SLOWEST = 10  # times what a test takes unchanged
+SLOWEST = 10  # multiple of a test's time without mutation
 LEAST_LIMIT_S = 5
 SKIPPED = 77
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The unit of every dataset of the files that a run writes, as the READMEs tell it: not taken from the code."""
 
-# By path; None: numbers of things, or texts, which have no unit.
+# Units by path; None for numbers of things, or texts, which have no unit.
 UNITS = {
     "mesh.h5": {
         r"nodes": "m",

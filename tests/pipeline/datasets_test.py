@@ -32,8 +32,8 @@ MESHED = 1e-8  # gmsh places nodes on surfaces to ten digits
 BEAM = 1e-2  # a beam's theory: the bar is 17 and 25 times as long as it is wide
 WEIGHT, WEIGHT_ARM, WEIGHT_INERTIA = 0.5, 0.02, (2e-4, 3e-4, 3e-4)  # its body at the tip
 
-# A block 0.5 m from the axis of a table that turns by 2 rad/s, its centre of mass 0.1 m further out and
-# 0.2 m up.
+# A block 0.5 m from the axis of a table that rotates at 2 rad/s, its centre of mass 0.1 m further
+# out and 0.2 m up.
 SPIN, OUT, FURTHER, UP, BLOCK = 2, 0.5, 0.1, 0.2, 3
 BLOCK_INERTIA = 0.04
 QUANTITIES = {
@@ -105,7 +105,7 @@ class Datasets(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
-        # What files name beside themselves lies as deep as it did.
+        # Paths that the files contain stay valid: the folder lies as deep as before.
         cls.files = cls.folder / "tests/golden/files"
         shutil.copytree(ROOT / "tests/golden/files", cls.files)
         shutil.copytree(ROOT / "geometry/examples", cls.folder / "geometry/examples")
@@ -180,7 +180,7 @@ class Datasets(unittest.TestCase):
         self.assert_close(of["S1"], [MASS * LENGTH / 2, 0, 0], MESHED)
         across = MASS * (LENGTH**2 / 3 + np.array([HEIGHT, WIDTH])**2 / 12)
         self.assert_close(of["J0"], np.diag([MASS * (WIDTH**2 + HEIGHT**2) / 12, *across]), MESHED)
-        # -~a ~b = (a . b) 1 - b a^T: what is not symmetric of it is -~(a x b).
+        # -~a ~b = (a . b) 1 - b a^T: its antisymmetric part is -~(a x b).
         for G0, N0 in zip(of["G0"], of["N0"].T):
             self.assert_close(G0 - G0.T, -skew(N0), 1e-9)
         for j, l in np.ndindex(of["Maa"].shape):
@@ -195,10 +195,10 @@ class Datasets(unittest.TestCase):
             self.assert_close(mode[at_tip].mean(axis=0), tip[:, k], 1e-2)
             # Clamped and free: the mean of the shape is 0.3915 of the tip's.
             self.assert_close(of["S2"][side, k], MASS * 0.3915 * tip[side, k], BEAM)
-            # And its first moment 0.2844 of it times the length.
+            # The shape's first moment is 0.2844 of the tip's times the length.
             moment = MASS * LENGTH * 0.2844 * np.cross([1, 0, 0], tip[:, k])
             self.assert_close(of["N0"][:, k], moment, BEAM)
-            # 1.8751^2 / 2 pi L^2 sqrt(EI / rho A): the less stiff way first.
+            # 1.8751^2 / 2 pi L^2 sqrt(EI / rho A): the more flexible direction first.
             radius = (HEIGHT, WIDTH)[k] / np.sqrt(12)
             self.assert_close(file["frequencies"][k],
                               1.8751**2 / (2 * np.pi * LENGTH**2) * np.sqrt(YOUNG / DENSITY) * radius, BEAM)
@@ -230,7 +230,8 @@ class Datasets(unittest.TestCase):
         self.assertTrue((pushed[0] < 0).all())
         self.assertLess(np.abs(pushed[1:]).max(), 1e-6 * np.abs(pushed[0]).max())
         pulled = bending(file["velocity_products"][:])
-        # About its own axis it is not; about the others by Southwell's coefficient.
+        # Rotation about its own axis does not stiffen it; about the others it does by Southwell's
+        # coefficient.
         self.assert_close(pulled[1:3], 1.193 * np.ones((2, 2)), BEAM)
         self.assertLess(np.abs(pulled[[0, 3, 4, 5]]).max(), 0.01)
         force = bending(file["interfaces/tip/force"][:])

@@ -19,7 +19,7 @@ except ImportError as error:
     print(f"SKIPPED: {error}; install python3-h5py")
     sys.exit(77)
 
-TEXT = h5py.string_dtype()  # of variable length, as h5py writes strings unless told otherwise
+TEXT = h5py.string_dtype()  # of variable length, h5py's default for strings
 
 # A bar of four cubes along x, clamped at x = 0.
 SIDE = 0.1

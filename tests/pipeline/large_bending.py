@@ -151,7 +151,8 @@ def bend_sections(program, folder, name, curves, moments):
             angles = ", ".join(f'"{angle:.9g} rad"' for angle, _ in rows)
             loads = ", ".join(f'"{moment:.9g} N*m"' for _, moment in rows)
             sections += f"bending_angles = [{angles}]\nbending_moments = [{loads}]\n"
-    # In the plane of symmetry, which a moment about a fixed axis lets a neck leave from 56 degrees on.
+    # The model is constrained to the plane of symmetry, which a moment about a fixed axis lets a
+    # neck leave from 56 degrees on.
     plane = '[[joint]]\nname = "plane"\nkind = "planar"\nlower = "ground.bottom"\n'
     plane += 'upper = "disc_4.face"\naxis = [0, 1, 0]\n'
     text += markers + sections + plane

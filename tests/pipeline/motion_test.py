@@ -87,8 +87,8 @@ class Motion(unittest.TestCase):
             rigid = base["position"][at] + nodes @ rotation(base["rotation"][at]).T
             bent = read.point_data["deformation [m]"]
             np.testing.assert_allclose(read.points, rigid + bent, atol=1e-12)
-            # The thick base plate hardly bends; the top plate goes with what the head hangs on,
-            # but for its turn, which shapes have as a tangent.
+            # The thick base plate hardly bends; the top plate moves with the body to which the head
+            # is connected, except for its rotation, which shapes have as a tangent.
             self.assertLess(abs(bent[fixed]).max(), 1e-3)
             middle = nodes[top].mean(axis=0) - [0, 0, height]
             carried = head["position"][at] + rotation(head["rotation"][at]) @ middle

@@ -19,7 +19,7 @@ namespace flexneck::testing {
 
 inline const std::string kExamples = std::string(FLEXNECK_SOURCE_DIR) + "/geometry/examples/";
 
-/// Runs a study into `folder`; whatever goes wrong fails the test with what was printed.
+/// Runs a study into `folder`; any failure fails the test with the printed text.
 inline void run_study(const std::string& study, const std::filesystem::path& folder,
                       const std::string& more = "") {
   const CommandOutcome outcome = run_flexneck("run " + study + " -o " + folder.string() + more);
@@ -35,7 +35,7 @@ inline mesher::MeshSummary summary_of(const std::filesystem::path& folder) {
   return mesher::summarise(mesher::read_mesh(folder / "mesh.h5").mesh);
 }
 
-/// Relative.
+/// Largest relative error.
 inline double largest_error(const Eigen::VectorXd& computed, const std::vector<double>& truth) {
   REQUIRE(computed.size() <= static_cast<Eigen::Index>(truth.size()));
   double largest = 0;

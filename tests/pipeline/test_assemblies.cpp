@@ -15,7 +15,7 @@ using testing::write_test_file;
 
 namespace {
 
-/// A bar that hangs on a marker "hook" of the file that holds it, by everything that has names.
+/// A bar with everything that has names, connected to a marker "hook" of the including file.
 const std::string kBar = R"(
 [[body]]
 name = "bar"
@@ -168,14 +168,14 @@ TEST_CASE("each assembly has its own variables, which the command line and prove
   CHECK(parameter(file, "assembly.left.file") == "bar.toml, synthetic");
   CHECK(parameter(file, "assembly.left.variables.side") == "-1, synthetic");
   CHECK(parameter(file, "assembly.left.variables.mass") == "2 kg, published");
-  // Each file once, in the order of reading.
+  // Each file is listed once, in the order of reading.
   CHECK(joined(file.files) == "model.toml bar.toml");
 
   const ModelFile changed =
       files.model(kPair, {"assembly.left.variables.mass=5 kg", "body.right:bar.mass=7 kg"});
   CHECK(rigid(changed, "left:bar").mass_kg == 5);
   CHECK(rigid(changed, "right:bar").mass_kg == 7);
-  // Variables of the file that holds the assembly.
+  // Variables of the including file are used.
   const ModelFile given =
       files.model(kFrame + "[variables]\nload = { value = \"4 kg\", origin = \"inferred\" }\n" +
                   assembly("left", "bar.toml", "variables = { mass = \"2*$load\" }\n"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cases as models: which tables of a study they take, and what they change and add.
+// Cases as models: the tables of a study that they use, and their changes and additions.
 #include <fstream>
 #include <stdexcept>
 
@@ -65,7 +65,7 @@ TEST_CASE("a case has the bodies that it names, their markers, and the joints be
   CHECK(names_of(tester.joints) == std::vector<std::string>{"clamp"});
   REQUIRE(tester.forces.of<multibody::PointForce>().size() == 1);
   CHECK(tester.forces.of<multibody::PointForce>()[0].direction == -Eigen::Vector3d::UnitX());
-  // All of the study stands together, where a report or an attached body looks for it.
+  // The whole model of the study is kept for a report or an attached body.
   CHECK(study.model.model.bodies.size() == 4);
   CHECK(study.rigid_body("head").mass_kg == Approx(9.921 * 0.45359237));
 }
@@ -101,7 +101,8 @@ axis = [0, 1, 0]
   CHECK(joint(changed, "j2").kind == &multibody::kRevoluteJoint);
   CHECK(changed.markers[joint(changed, "j2").marker_i].name == "neck.top");
   REQUIRE(changed.forces.of<JointResistance>().size() == 1);
-  // Another case of the study is as it was, a variant of this one has its changes and its own.
+  // Another case of the study is unchanged; a variant of this one has its changes and the variant's
+  // own.
   const Model& other = model_of(study, "flexion-80");
   CHECK(joint(other, "j2").kind == &multibody::kFixedJoint);
   CHECK(other.forces.of<JointResistance>().empty());
@@ -149,7 +150,8 @@ TEST_CASE("what a case's model gets wrong is refused with file, line and key") {
               "case.flexion-60.body.arm.initial_velocity: the case gives this body its motion");
   own.refuses(flexion + "bodies = [\"neck\", \"head\"]\n",
               "expected one body of kind \"prescribed\", the pendulum's arm, found 0");
-  // Below a table that stands over it in every case, and in a table that no case takes.
+  // Errors are also found in a table that others override in every case, and in one that no case
+  // uses.
   own.refuses(flexion +
                   "[[case.joint]]\nname = \"j2\"\naxes = [0, 1, 0]\n"
                   "[[variant]]\nname = \"other\"\nof = [\"flexion-60\"]\n"

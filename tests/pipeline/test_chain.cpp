@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The shipped models of the neck as a chain of four bodies, against the neck as one body, on the
-// coarsest neck.
+// The shipped models of the neck as a chain of four bodies, compared with the neck as one body, on
+// the coarsest mesh.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -48,12 +48,12 @@ class Bodies {
   std::string file_of(const std::string& piece) const {
     return (folder_ / ("substructure_" + piece + ".h5")).string();
   }
-  /// With its whole static compliance.
+  /// Settings of the single body with its whole static compliance.
   Settings single() const {
     return {"body.neck.modes_file=" + (folder_ / "modes.h5").string(),
             "body.neck.modes=['normal', 'residual']"};
   }
-  /// With the paper's four modes, as shipped.
+  /// Settings of the single body with the paper's four modes, as shipped.
   Settings published(bool stiffens) const {
     return {"body.neck.modes_file=" + (folder_ / "modes.h5").string(),
             std::string("body.neck.stress_stiffening=") + (stiffens ? "true" : "false")};
@@ -74,7 +74,7 @@ ModelFile read(const std::string& model, Settings settings, const Settings& more
                          settings);
 }
 
-/// At rest under the forward load.
+/// Static state under the forward load.
 struct Rest {
   Eigen::Vector3d top_m;
   double rotation_rad;
@@ -100,7 +100,7 @@ Rest chain_under(int load_lbf,
   return rest_under(load_lbf, "static_chain", bodies().chain(), "disc_4.top", formulation);
 }
 
-/// The discs as sections between rigid plates, under the same load.
+/// Static state of the discs as sections between rigid plates, under the same load.
 Rest sections_under(double load_lbf, multibody::Formulation formulation) {
   std::string text = R"(
 [solver]
@@ -137,7 +137,7 @@ Rest single_under(int load_lbf, const Settings& settings) {
                     multibody::Formulation::recursive);
 }
 
-/// What the chain's rigid cuts take from the neck's compliance, at most.
+/// Bound of the neck's compliance lost at the chain's rigid cuts, as a fraction.
 constexpr double kRigidCuts = 2e-3;
 
 }  // namespace
@@ -178,7 +178,7 @@ TEST_CASE("discs as sections between rigid plates deflect as the chain of modal 
 }
 
 TEST_CASE("a section between two files of modes relaxes from the one stiffness to the other") {
-  // Of 1200 psi and 0.49 with the shear modulus at 0.39 and the bulk modulus as it is.
+  // 1200 psi and 0.49 with the shear modulus multiplied by 0.39 and the bulk modulus unchanged.
   const Bodies slow(
       " --set geometry.materials.butyl.youngs_modulus='469.84 psi'"
       " --set geometry.materials.butyl.poissons_ratio=0.496084");
@@ -228,11 +228,12 @@ TEST_CASE("at 400 lbf the chain bends along an arc, shorter and stiffer than the
   const double length = chain_under(0).top_m.z();
   const Rest linear = single_under(kLoad_lbf, bodies().single());
   const Rest chain = chain_under(kLoad_lbf);
-  // A linear body draws its top along a straight line, in proportion to the load: it stretches.
+  // A linear body moves its top along a straight line, proportional to the load: it stretches.
   CHECK(linear.top_m.x() ==
         Approx(kLoad_lbf * single_under(1, bodies().single()).top_m.x()).epsilon(1e-3));
   CHECK(linear.top_m.norm() > 1.3 * length);
-  // The chain's moves along an arc: lower, less far, and less turned, since its arm is shorter.
+  // The chain's top moves along an arc: lower, less far, and with less rotation, since its arm is
+  // shorter.
   CHECK(chain.top_m.norm() < 1.06 * length);
   CHECK(chain.top_m.z() < 0.9 * length);
   CHECK(chain.top_m.x() < 0.8 * linear.top_m.x());
@@ -259,7 +260,7 @@ TEST_CASE("generalised-alpha throws the chain as the explicit method does, in fa
   };
   check_same(found.marker("head.cg").position_m, exact.marker("head.cg").position_m);
   check_same(found.marker("head.cg").acceleration_m_s2, exact.marker("head.cg").acceleration_m_s2);
-  // Reactions of every joint, though the stiff modes that carry them are not followed.
+  // Reactions of every joint agree, though the stiff modes that carry them are not resolved.
   for (const multibody::JointHistory& joint : exact.joints) {
     CAPTURE(joint.name);
     check_same(found.joint(joint.name).force_N, joint.force_N);

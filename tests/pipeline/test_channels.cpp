@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kRounding = 1e-12;
 
-/// A double pendulum that has run, and channels of it by the text of their tables.
+/// A run of a double pendulum, and channels of it given by the text of their tables.
 struct Swing {
   TemporaryFolder folder;
   ModelFile file;
@@ -44,7 +44,7 @@ std::string channel_text(const std::string& quantity, const std::string& keys) {
          "\"\n" + keys + "\n";
 }
 
-/// Fourth-order central differences, and the largest deviation of a rate from them.
+/// Largest deviation of a rate from fourth-order central differences.
 double difference_error(const Eigen::MatrixXd& values, const Eigen::MatrixXd& rates, double dt) {
   double largest = 0;
   for (Eigen::Index k = 2; k + 2 < values.cols(); ++k) {
@@ -64,12 +64,12 @@ TEST_CASE("motion seen from a frame that turns is what differences of its positi
                     channel_text("acceleration", seen) + channel_text("angular_velocity", seen) +
                     channel_text("angular_acceleration", seen) +
                     channel_text("angle", seen + "\naxis = [1, 0, 0]"));
-  // h^4 of motions of about 2 Hz.
+  // Error h^4 of the differences for motions of about 2 Hz.
   constexpr double kDifference = 1e-6;
   CHECK(difference_error(swing.channel(0).values, swing.channel(1).values, 1e-3) < kDifference);
   CHECK(difference_error(swing.channel(1).values, swing.channel(2).values, 1e-3) < kDifference);
   CHECK(difference_error(swing.channel(3).values, swing.channel(4).values, 1e-3) < kDifference);
-  // The elbow lets it turn about x only. The markers' axes are turned by 30 deg there.
+  // The elbow permits rotation about x only. The markers' axes are rotated by 30 deg there.
   const Eigen::MatrixXd turning = swing.channel(3).values;
   CHECK(turning.bottomRows<2>().cwiseAbs().maxCoeff() < kRounding * turning.cwiseAbs().maxCoeff());
   CHECK(difference_error(swing.channel(5).values, turning.row(0), 1e-3) < kDifference);
@@ -97,7 +97,7 @@ TEST_CASE("reactions come in the axes of either side and as a load cell has them
                     channel_text("load_cell_moment", "joint = \"shoulder\""));
   const multibody::JointHistory& elbow = swing.history.joint("elbow");
   CHECK(swing.channel(0).values == Eigen::MatrixXd(elbow.force_N));
-  // The axes share x; y and z turn with the elbow.
+  // The axes have x in common; y and z rotate with the elbow.
   const Eigen::MatrixXd turned = swing.channel(1).values;
   CHECK((turned.row(0) - elbow.force_N.row(0)).norm() < kRounding * elbow.force_N.norm());
   CHECK((turned.colwise().norm() - elbow.force_N.colwise().norm()).norm() <

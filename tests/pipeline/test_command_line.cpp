@@ -45,7 +45,7 @@ TEST_CASE("modes --check checks that no mode is missing and estimates the mesh's
     CHECK(mode.mesh_error->refined_Hz == Approx(body.frequencies_Hz[k]).epsilon(0.1));
     CHECK(mode.mesh_error->error < 0.2);
   }
-  // Another stage does not mind.
+  // Another stage is not affected.
   CHECK(run_flexneck("static -q" + out).exit_code == 0);
 }
 
@@ -55,7 +55,7 @@ TEST_CASE("a static modulus softens the static test alone") {
   REQUIRE(run_flexneck("mesh -q" + out).exit_code == 0);
   REQUIRE(run_flexneck("modes -q" + out).exit_code == 0);
   REQUIRE(run_flexneck("static -q" + out).exit_code == 0);
-  // How much the tip moves while the ramp rises, once the lag that damping makes is steady.
+  // Motion of the tip while the ramp rises, once the lag by damping is steady.
   const auto tip = [&] {
     const auto top =
         multibody::read_history(folder / "static-flexion.h5").history.marker("neck.top");
@@ -69,14 +69,14 @@ TEST_CASE("a static modulus softens the static test alone") {
   REQUIRE(outcome.exit_code == 0);
   CHECK(fs::exists(folder / "modes_static.h5"));
   REQUIRE(run_flexneck("static -q" + out + quarter).exit_code == 0);
-  // The plates of aluminium keep their stiffness.
+  // The aluminium plates keep their stiffness.
   CHECK(tip() / stiff == Approx(4).epsilon(0.02));
   const auto frequencies = [&](const char* file) {
     return fe_modal::read_modal_body(folder / file).body.frequencies_Hz;
   };
   CHECK(frequencies("modes_static.h5")[0] / frequencies("modes.h5")[0] ==
         Approx(0.5).epsilon(1e-3));
-  // Without the ratio, which held for these commands alone, nothing of it is left.
+  // The ratio applied to these commands only: without it no effect remains.
   REQUIRE(run_flexneck("modes -q" + out).exit_code == 0);
   CHECK(bytes_of(folder / "modes.h5") == modes);
   CHECK_FALSE(fs::exists(folder / "modes_static.h5"));
@@ -166,7 +166,7 @@ TEST_CASE("mesh --dry-run tells dimensions, mass and section of the neck and mak
     CHECK_THAT(outcome.text, Contains(shown));
   }
   CHECK_THAT(outcome.text, Contains("####") && Contains("::::"));
-  // The neck in mm taken for m: a remark, no refusal.
+  // The neck in mm taken for m causes a remark, no refusal.
   const CommandOutcome giant = run_flexneck("mesh --show --set geometry.length='143 m'" + out);
   CHECK(giant.exit_code == 0);
   CHECK_THAT(giant.text, Contains("Warning: the largest extent is 143 m"));

@@ -20,13 +20,14 @@ using testing::check_refused;
 using testing::CommandOutcome;
 using testing::run_flexneck;
 
-/// Standard output only: warnings are lines to search in, of any length. Results go into `out`.
+/// Runs the command and returns standard output only: warnings are lines of any length, in which
+/// tests search. Results go into `out`.
 CommandOutcome printed_by(const TemporaryFolder& folder, const std::string& arguments) {
   return testing::run_shell("(cd " + folder.path().string() + "; " + testing::flexneck_program() +
                             " " + arguments + " 2>/dev/null)");
 }
 
-/// With what it says on standard error.
+/// Runs the command and returns standard error, too.
 CommandOutcome told_by(const TemporaryFolder& folder, const std::string& arguments) {
   return testing::run_shell("(cd " + folder.path().string() + "; " + testing::flexneck_program() +
                             " " + arguments + ")");
@@ -86,7 +87,7 @@ TEST_CASE("a folder remembers its study and the values set, and a run fits the c
         "compare out out -o beside", "verify -v", "keys study.variant"}) {
     INFO(command);
     const CommandOutcome outcome = printed_by(folder, command);
-    CHECK(outcome.exit_code <= 1);  // of the coarse mesh's frequencies, 1
+    CHECK(outcome.exit_code <= 1);  // 1 because of the coarse mesh's frequencies
     CHECK(longest_line(outcome.text) <= 100);
   }
   const CommandOutcome whole = printed_by(folder, "verify -v");
@@ -97,7 +98,7 @@ TEST_CASE("a folder remembers its study and the values set, and a run fits the c
   CHECK(modes.exit_code == 0);
   CHECK_THAT(modes.text,
              Contains("Study of " + (folder / "out").string() + ": the built-in one --set mesh."));
-  // Runs of the modes before are neither shown nor judged beside these.
+  // Runs of the previous modes are neither shown nor judged together with the new ones.
   CHECK_THAT(run_flexneck("report" + out).text,
              Contains("files of this folder, not made from the modes.h5 in it, are left out"));
   const CommandOutcome judged = run_flexneck("verify" + out);
@@ -107,11 +108,11 @@ TEST_CASE("a folder remembers its study and the values set, and a run fits the c
   const CommandOutcome tester = run_flexneck("static" + out);
   CHECK(tester.exit_code == 0);
   CHECK_THAT(tester.text, Contains("--set modes.count=8"));
-  // A study that is named is taken as it is.
+  // A study given by name is used as it is.
   check_refused(run_flexneck("static " + std::string(FLEXNECK_SOURCE_DIR) +
                              "/pipeline/studies/hybrid3.toml" + out),
                 "was made with");
-  // Nor are modes of the mesh before, with all that was made from them.
+  // Modes of the previous mesh, and all results made from them, are not shown either.
   REQUIRE(run_flexneck("mesh --set mesh.quadrant=3" + out).exit_code == 0);
   CHECK_THAT(run_flexneck("report" + out).text,
              Contains("A file of this folder, not made from the mesh.h5 in it, is left out: "
@@ -132,7 +133,8 @@ TEST_CASE("paths that the system or a folder's study.json cannot take are unusab
         "modes -o " + name, "rate " + name + " " + name, "compare " + name + " " + name})
     check_refused(run_flexneck(command), name);
   check_refused(run_flexneck("info " + name), "a name has at most 255 bytes");
-  // Not known to be UTF-8 before all is done: a whole name, one in a folder, one beside this one.
+  // Invalid UTF-8 is found before any computation: a whole name, one in a folder, one beside this
+  // one.
   for (const char* const bytes : {"st\xff\xfe", "b\xe4r", "\xc3", "\xed\xa0\x80"}) {
     fs::create_directories(here / bytes);
     fs::copy_file(shipped + "cantilever.toml", here / bytes / "cantilever.toml");
@@ -140,7 +142,7 @@ TEST_CASE("paths that the system or a folder's study.json cannot take are unusab
     check_refused(run_flexneck("mesh '" + (here / bytes / "cantilever.toml").string() + "'" + out),
                   "expected a path in UTF-8");
     CHECK_FALSE(fs::exists(here / "out/mesh.h5"));
-    // A folder can hold a study that it can name from where it is.
+    // Such a folder can hold a study, which can be named from within.
     const auto inside =
         testing::run_shell("cd '" + (here / bytes).string() + "' && " + FLEXNECK_BINARY_DIR +
                            "/flexneck mesh -q cantilever.toml -o new 2>&1");
@@ -196,7 +198,7 @@ TEST_CASE("studies and models point at the command that takes them, and a model 
                 "four_bar.toml: expected a study, found a model; try 'flexneck simulate");
   check_refused(run_flexneck("simulate cantilever" + out),
                 "cantilever.toml: expected a model, found a study; try 'flexneck run");
-  // What is wrong with a study of its own kind is told as ever.
+  // Errors in a study of the right kind are reported as usual.
   check_refused(run_flexneck("run cantilever --set modes.cont=4" + out), "did you mean 'count'?");
   check_refused(run_flexneck("simulate four_bar --set solver.end_tim='1 s'" + out),
                 "did you mean 'end_time'?");
@@ -205,7 +207,7 @@ TEST_CASE("studies and models point at the command that takes them, and a model 
       "out/seat_back/modes.h5: no such file, nor one here; make out/seat_back/modes.h5 with "
       "'flexneck run seat_back -o out/seat_back'");
   CHECK_FALSE(fs::exists(folder / "out"));
-  // From the current folder, where commands write.
+  // Paths are relative to the current folder, into which commands write.
   REQUIRE(printed_by(folder, "run -q cantilever -o out/bar").exit_code == 0);
   std::ofstream(folder / "out/bar/swing.toml") << R"(
 [solver]

@@ -52,7 +52,8 @@ TEST_CASE(
   REQUIRE(run_flexneck("modes" + arguments).exit_code == 0);
   const auto own = fe_modal::read_modal_body(folder / "modes.h5");
   CHECK_THAT(own.provenance.libraries.at("BLAS"), Contains("OpenBLAS"));
-  // Those that every x86-64 processor can run: what the user sets is obeyed.
+  // OPENBLAS_CORETYPE selects code that every x86-64 processor can run: the user's setting is
+  // obeyed.
   const CommandOutcome outcome = testing::run_shell(
       "OPENBLAS_CORETYPE=Prescott " + testing::flexneck_program() + " modes" + arguments);
   INFO(outcome.text);
@@ -137,7 +138,7 @@ TEST_CASE("what a stage leaves is read by the next one, or refused in one line")
     check_refused(run_flexneck("info " + out + "/none.h5"), "no such file");
   }
   SECTION("a stage tells what it replaces by something else, and what it was made with counts") {
-    // A study that is named is taken without what the folder remembers.
+    // A study given by name is used without the values that the folder remembers.
     const std::string study =
         " " + std::string(FLEXNECK_SOURCE_DIR) + "/pipeline/studies/hybrid3.toml";
     const CommandOutcome fewer = run_flexneck("modes -q" + study + " -o " + out + kCoarse +
@@ -147,7 +148,7 @@ TEST_CASE("what a stage leaves is read by the next one, or refused in one line")
                                     "/modes.h5: was made with modes.count = 10, "
                                     "now with 6") &&
                                Contains("modes.h5"));
-    // A key that the study does not give, of which its default holds.
+    // A key that the study does not give has its default.
     check_refused(run_flexneck("static" + study + " -o " + out + kCoarse + " --set modes.count=6"),
                   "modes.h5: was made with modes.basis = residual, the study has normal");
     CHECK(run_flexneck("modes -q" + study + " -o " + out + kCoarse).text.find("Warning") !=

@@ -23,7 +23,7 @@ ModelFile dummy(const std::vector<std::string>& settings = {}) {
   return read_model_file(kFolder + "dummy.toml", settings);
 }
 
-/// The seat pulls back by 100 m/s^2 at most, within 80 ms.
+/// The dummy on a seat that decelerates by at most 100 m/s^2, within 80 ms.
 ModelFile dummy_on_sled(const std::string& formulation) {
   return dummy({"body.seat.kind=prescribed",
                 "body.seat.acceleration=-100 * sin(pi * t / 0.08) * (t < 0.08)",
@@ -40,7 +40,7 @@ double mass_kg(const ModelFile& file) {
   return sum;
 }
 
-/// Of two histories, over time.
+/// Largest difference of two histories over time.
 double largest_difference(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
   return (a - b).colwise().norm().maxCoeff();
 }
@@ -64,13 +64,13 @@ TEST_CASE("the dummy stands in equilibrium on its own joints, and its seat carri
   const ModelFile file = dummy({std::string("solver.formulation=") + formulation});
   const History history = run(file);
   const double weight_N = mass_kg(file) * kGravity_m_s2;
-  // In the axes of the segments, z down.
+  // Forces are in the axes of the segments, z down.
   const Eigen::Matrix3Xd& force = history.joint("seat").force_N;
   CHECK((force.colwise() + Eigen::Vector3d(0, 0, weight_N)).colwise().norm().maxCoeff() <
         1e-6 * weight_N);
   CHECK(history.constraints.position_m.maxCoeff() < 1e-12);
   CHECK(history.redundant_constraints.empty());
-  // It keeps the posture that it is given: nothing sags by more than 20 deg, or moves.
+  // It keeps its initial posture: nothing sags by more than 20 deg, or moves.
   CHECK(history.energy.kinetic_J.maxCoeff() < 1e-12);
   for (const multibody::MarkerHistory& marker : history.markers) {
     CAPTURE(marker.name);
@@ -109,7 +109,7 @@ TEST_CASE("the dummy moves alike in both formulations, and its left side as its 
     CHECK(largest_difference(marker.position_m, other.position_m) < 1e-11);
     CHECK(largest_difference(marker.velocity_m_s, other.velocity_m_s) < 1e-9);
   }
-  // The head is thrown forward against the seat.
+  // The head moves forward relative to the seat.
   const Eigen::Matrix3Xd way =
       descriptor.marker("head.cg").position_m - descriptor.marker("lower_torso.cg").position_m;
   CHECK(way.row(0).maxCoeff() > way(0, 0) + 0.2);

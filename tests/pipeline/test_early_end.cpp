@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command, with steps that must not become as small as the motion needs.
+// The command, with a minimum step larger than the motion needs.
 #include <filesystem>
 
 #include <catch2/catch.hpp>
@@ -42,7 +42,7 @@ TEST_CASE(
   CHECK(file.channels.at(0).values.cols() == file.history.time_s.size());
   CHECK_FALSE(fs::exists(folder / "pendulum.json"));
 
-  // The linear neck bends further than its modes hold for, and every file says so.
+  // The linear neck bends further than its modes are valid for, and every file says so.
   const CommandOutcome tester = run_coarse(folder.path(), "static");
   REQUIRE(tester.exit_code == 0);
   CHECK_THAT(tester.text, Contains("Warning: flexion: body 'neck' "));

@@ -23,7 +23,7 @@ constexpr double kRounding = 1e-12;
 
 Eigen::Vector4d elements(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
-/// A marker that stays at one place, turned.
+/// History of a marker at rest with a given rotation.
 multibody::MarkerHistory still(const std::string& name, const Eigen::Vector3d& position,
                                const Eigen::Quaterniond& rotation) {
   multibody::MarkerHistory marker;
@@ -97,7 +97,7 @@ TEST_CASE("the arm comes to rest from the impact velocity, whatever the case") {
     CHECK(std::abs(arm.initial_velocity_m_s + arm.acceleration_m_s2.integral(1.0)) <
           kRounding * arm.initial_velocity_m_s);
   }
-  // Lateral: along the neck's +y, which is the world's -y when the neck hangs.
+  // Lateral: the motion is along the neck's +y, which is the world's -y when the neck hangs.
   const multibody::Model lateral =
       pendulum_model(experiment.study, experiment.named("lateral-65"), experiment.body);
   const auto& arm =
@@ -124,7 +124,7 @@ TEST_CASE("rotations of head and neck are those of the drawing") {
     CaseSection section = experiment.named("flexion-60");
     section.direction = direction;
     const bool lateral = direction == Direction::lateral;
-    // In neck axes the head turns about +y (forward), or about -x (towards +y).
+    // In neck axes the head rotates about +y (forward), or about -x (towards +y).
     const Eigen::Vector3d axis =
         lateral ? Eigen::Vector3d(-Eigen::Vector3d::UnitX()) : Eigen::Vector3d::UnitY();
     const Eigen::Vector3d chord = Eigen::AngleAxisd(phi_neck, axis) * Eigen::Vector3d(0, 0, 0.14);

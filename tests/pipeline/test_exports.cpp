@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A study of a mesh that was exported, with the bar's material.
+/// Writes a study of an exported mesh, with the bar's material.
 std::string imported_bar(const fs::path& folder, const std::string& file) {
   std::ofstream(folder / "again.toml") << "[geometry]\nfile = \"" << file << R"("
 [geometry.materials.aluminium]
@@ -103,8 +103,8 @@ TEST_CASE("CalculiX finds the neck's frequencies on the deck exported of 20-node
     return largest_error(frequencies_in(folder.path()), testing::calculix_frequencies(deck));
   };
   CHECK(errors("displacement") < 1e-6);
-  // For C3D20R CalculiX integrates the mass at eight points too, we in full: that shows in the
-  // short waves of so coarse a mesh.
+  // For C3D20R CalculiX uses eight integration points for the mass too, flexneck full integration:
+  // the short waves of so coarse a mesh differ.
   CHECK(errors("reduced") < 1e-3);
 }
 
@@ -120,7 +120,7 @@ TEST_CASE("hexahedra, prisms and tetrahedra in one mesh: CalculiX agrees") {
   REQUIRE(run_flexneck("export " + study + " -o " + folder.path().string() + " --to " +
                        (folder / "mixed.inp").string())
               .exit_code == 0);
-  // Prisms and tetrahedra are integrated at fewer points there.
+  // CalculiX integrates prisms and tetrahedra at fewer points.
   CHECK(largest_error(frequencies_in(folder.path()),
                       testing::calculix_frequencies(folder / "mixed.inp")) < 1e-3);
 }
@@ -147,7 +147,7 @@ TEST_CASE("matrices that were exported give the frequencies of the mesh they cam
 
 namespace {
 
-/// A modal file of the ATB, read as that program reads it: numbers in free format, then no more.
+/// A modal file of the ATB, read as that program does: numbers in free format, then the end.
 struct AtbFile {
   explicit AtbFile(const fs::path& path) : stream(path) {
     std::size_t modes = 0;
@@ -178,7 +178,7 @@ constexpr double kInch = 0.0254;                      ///< in m
 constexpr double kPoundForce = 0.45359237 * 9.80665;  ///< in N
 constexpr double kMassUnit = kPoundForce / kInch;     ///< 1 lbf s^2/in in kg
 
-/// The node of a body in the place of each of the file's.
+/// The body's node at the position of each node of the file.
 std::vector<Eigen::Index> nodes_at(const AtbFile& file, const fe_modal::ModalBody& body) {
   std::vector<Eigen::Index> nodes;
   for (const auto& position : file.positions.colwise()) {
@@ -219,12 +219,13 @@ TEST_CASE("the ATB's modal file holds the modes, normalised as that program does
     INFO(body.modes[k].name);
     const Eigen::MatrixXd translations = file.shapes[k].topRows(3);
     CHECK((translations.colwise().squaredNorm() * file.masses).value() == Approx(1).epsilon(1e-12));
-    // With the consistent mass the modal mass is 1 kg: lumping changes it a little.
+    // With the consistent mass the modal mass is 1 kg: lumping changes it slightly.
     const Eigen::MatrixXd expected = body.shapes[k](Eigen::all, nodes) * std::sqrt(kMassUnit);
     const double scale = translations.norm() / expected.norm();
     CHECK(scale == Approx(1).epsilon(0.02));
     CHECK((translations - scale * expected).norm() < 1e-12 * translations.norm());
-    // The end is free and stays plane, but for Poisson's effect: its rotation is each corner's.
+    // The end is free and stays plane, except for Poisson's effect: its rotation equals each
+    // corner's.
     const Eigen::Vector3d rotation =
         scale * std::sqrt(kMassUnit) * kInch * tip.rotation.col(static_cast<Eigen::Index>(k));
     for (std::size_t n = 0; n < nodes.size(); ++n) {

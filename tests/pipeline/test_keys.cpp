@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The tables of keys against the files that are shipped, and against the structures that are read.
+// The tables of keys, compared with the shipped files and with the structures that are read.
 #include <filesystem>
 #include <fstream>
 
@@ -33,7 +33,7 @@ std::span<const Key> keys_of(const fs::path& file) {
   return file.stem() == "hybrid3" ? reference_keys() : context_keys();
 }
 
-/// Keys of a table that the program knows; what it does not know fails.
+/// Counts the known keys of a table; unknown keys fail the test.
 int count_known(const toml::table& table, std::span<const Key> keys, const std::string& path) {
   int known = 0;
   for (const auto& [name, node] : table) {

@@ -35,7 +35,7 @@ TEST_CASE("a bar under loads of every kind is in balance, and CalculiX agrees on
   const std::string displacement = " --set modes.formulation=displacement";
   REQUIRE(run_flexneck("export -q " + study + displacement + out + " --to " + deck.string())
               .exit_code == 0);
-  // CalculiX adds the stiffness of the displacements, of the order of the strains: 5e-4 here.
+  // CalculiX adds the displacement stiffness, of the order of the strains: here 5e-4.
   CHECK(testing::largest_error(stiffened, testing::calculix_frequencies(deck)) < 1e-3);
   REQUIRE(run_flexneck("export -q " + (folder / "stress.h5").string() + " --to " +
                        (folder / "stress.vtu").string())

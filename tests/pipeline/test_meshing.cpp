@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Meshes that the program flexneck-mesher makes for this process.
+// Meshes made for this process by the program flexneck-mesher.
 #include <catch2/catch.hpp>
 
 #include "mesher/mesh/bounding_box.h"
@@ -12,7 +12,7 @@ using namespace flexneck::pipeline;
 
 namespace {
 
-constexpr double kPlace_m = 1e-11;  // to which gmsh puts nodes where they belong
+constexpr double kPlace_m = 1e-11;  // accuracy of gmsh's node positions
 
 Study cantilever(const std::string& constant) {
   return read_study(named_file("cantilever"), {"geometry.constants." + constant});

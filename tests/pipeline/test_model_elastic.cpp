@@ -16,7 +16,7 @@ using testing::with;
 
 namespace {
 
-/// A box on the end of a section.
+/// Text of a model: a box at the end of a section.
 std::string section_text() {
   return "[solver]\nend_time = \"1 s\"\n[[body]]\nname = \"ground\"\nkind = \"ground\"\n" +
          testing::origin_marker_text("ground", "hook") + testing::box_text("box", "at") + R"(

@@ -37,7 +37,7 @@ TEST_CASE("bodies are where their joints put them and move as their joints say")
   CHECK((lower.initial_pose.position_m - elbow).norm() < 1e-15);
   const double rate = 300 * std::numbers::pi / 180;
   CHECK((upper.initial_angular_velocity_rad_s - Eigen::Vector3d(0, rate, 0)).norm() < 1e-14);
-  // It turns about y with the upper body, and about the elbow's own axis.
+  // It rotates about y with the upper body, and about the elbow's own axis.
   const Eigen::Vector3d turning =
       Eigen::Vector3d(0, rate, 0).cross(elbow - Eigen::Vector3d(0, 0, 1));
   CHECK((lower.initial_velocity_m_s - turning).norm() < 1e-14);
@@ -46,7 +46,7 @@ TEST_CASE("bodies are where their joints put them and move as their joints say")
                                 Eigen::Vector3d::UnitX());
   const Eigen::Vector3d w = lower.initial_pose.rotation * lower.initial_angular_velocity_rad_s;
   CHECK((w - Eigen::Vector3d(0, rate, 0) - 8 * axis).norm() < 1e-14);
-  // So the joints hold at the start, in position and velocity.
+  // The joints are therefore satisfied at the start, in position and velocity.
   CHECK(refusal_of_model(folder, double_pendulum_text()) == "nothing was refused");
   CHECK(file.parameters.size() > 30);
 }
@@ -234,7 +234,7 @@ rotation = ["0 deg", "0 deg", "90 deg"]
   const auto& body = std::get<multibody::DeformableBody>(file.model.bodies[1].kind);
   CHECK(body.modes.modes[0].name == "lateral bending 1");
   CHECK(body.damping_ratio[1] == 0.2);
-  // The weight sits on the tip of the bent beam, turned with it: and so it stays.
+  // The weight is at the tip of the bent beam, rotated with it, and stays there.
   CHECK(file.model.bodies[2].initial_pose.position_m.x() ==
         Approx(0.01 * body.modes.interface("top").translation(0, 1)));
   const multibody::History history =
@@ -249,7 +249,7 @@ rotation = ["0 deg", "0 deg", "90 deg"]
              Contains("list of 2 entries"));
   CHECK_THAT(refusal_of_model(folder, with(beam("damping_ratio = 0.1"), "beam.h5", "none.h5")),
              Contains("none.h5: no such file; make it with 'flexneck modes'"));
-  // Of a later version, of another kind, not mass-normalised, not finite.
+  // Files of a later version, of another kind, not mass-normalised, not finite.
   const auto wrote = [&](const FileFormat& format) {
     Hdf5Writer(folder / "beam.h5", format).commit();
     return refusal_of_model(folder, beam("damping_ratio = 0.1"));

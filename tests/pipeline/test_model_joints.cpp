@@ -27,7 +27,7 @@ const std::string kElbow =
     "kind = \"pin\"\nlower = \"upper.end\"\nupper = \"lower.top\"\naxis = [1, 0, 0]\n"
     "angle = \"-70 deg\"\nrate = \"8 rad/s\"\n";
 
-/// The double pendulum with another joint at its elbow.
+/// Text of the double pendulum with another joint at its elbow.
 std::string with_elbow(const std::string& keys, const std::string& more = "") {
   return with(double_pendulum_text(), kElbow,
               "lower = \"upper.end\"\nupper = \"lower.top\"\n" + keys) +
@@ -103,7 +103,7 @@ TEST_CASE("a motor makes a joint follow an expression or a table from where the 
   const bool is_table = expression.starts_with("times");
   const multibody::History history = run(read_model(folder, with_elbow(pin, motor + expression)));
   const double start = -70 * std::numbers::pi / 180;
-  // The rows of the table are on a parabola, which its spline repeats.
+  // The rows of the table are on a parabola, which its spline reproduces.
   const auto path = [&](double t) { return is_table ? 3 * t + 20 * t * t : 2 * std::sin(9 * t); };
   for (const Eigen::Index k : {0, 50, 100, 200})
     CHECK(elbow_at(history, k).angle_rad == Approx(start + path(history.time_s[k])).margin(1e-9));
@@ -136,7 +136,7 @@ TEST_CASE("a distance joint closes a loop between bodies that others put in thei
       file.model.bodies[2].initial_pose.rotation * Eigen::Vector3d(0, 0.03, -0.2);
   const double length = (tip - Eigen::Vector3d(0, 0, 1)).norm();
   CHECK_THROWS_WITH(run(file), Contains("joint 'rod'") && Contains("apart"));
-  // A length that fits, and no velocities that would not.
+  // The rod has a length that fits, and velocities that would not fit are left out.
   std::string text = with(double_pendulum_text(), "rate = \"300 deg/s\"\n", "");
   text = with(text, "rate = \"8 rad/s\"\n", "") + rod + "\"" + fmt::format("{:.12f}", length) +
          " m\"\n";

@@ -46,7 +46,7 @@ TEST_CASE("a prescribed body follows a table, a pulse or an expression, and one 
       "initial_velocity = \"3 m/s\"\npulse_times = [\"0 s\", \"1 s\"]\n"
       "pulse_deceleration = [\"5 gn\", \"0 gn\"]");
   CHECK(pulse.acceleration_m_s2.integral(1) == Approx(-3).epsilon(1e-15));
-  // The bodies start with it.
+  // The other bodies start with the prescribed body's velocity.
   CHECK(read_model(folder, sled("initial_velocity = \"3 m/s\""))
             .model.bodies[1]
             .initial_velocity_m_s.x() == Approx(3));
@@ -94,7 +94,7 @@ upper = "block.o"
   };
   const double gained = -200 * 0.08 / std::numbers::pi;
   const std::string prescribed = "kind = \"prescribed\"\n";
-  // The pulse of the README over a minute.
+  // The pulse of the README, over one minute.
   CHECK(at_end(prescribed + "acceleration = \"-100 * sin(pi * t / 0.08) * (t < 0.08)\"\n",
                "kind = \"fixed\"\n")
             .marker("block.o")
@@ -108,7 +108,7 @@ upper = "block.o"
                axis + "kind = \"prismatic\"\n" + motor + "coordinate = \"distance\"\n" + pulse)
             .marker("block.o")
             .velocity_m_s(2, 1) == Approx(gained).epsilon(1e-6));
-  // A bell has no kink where steps would end: the block slides on its sled and stays.
+  // A bell curve has no kink at which steps would end: the block slides on its sled and stays.
   for (const std::string integrator : {"dormand_prince", "generalised_alpha"}) {
     const auto history =
         run(read_model(folder, "[solver]\nend_time = \"3 s\"\nintegrator = \"" + integrator +
@@ -156,7 +156,7 @@ TEST_CASE("an expression is one value: no sequence, no assignment, no chain of c
   CHECK(Expression("-t^2")(3) == -9);
   CHECK(Expression("a / b - a", {"a", "b"})(std::array{6.0, 3.0}) == -4);
   CHECK_THROWS_WITH(Expression("t", {"a"}), Contains("cannot be read"));
-  // muParser alone takes all of them: 81, 5 t, 4, 0, t, 2, and 1 for any time.
+  // muParser alone accepts all of them: 81, 5 t, 4, 0, t, 2, and 1 for any time.
   for (const char* const text : {"9,81", "0,5*t", "1 ? 2 : 3, 4", "t = 0", "(t = 1) + t",
                                  "max(t = 1, 2)", "0 < t < 0.1", "t == 1 == 1"}) {
     INFO(text);
@@ -193,7 +193,7 @@ TEST_CASE("a prescribed body turns by the same kinds of motion, and its body sta
                   "time [ms], angle [deg]\n0, 30\n100, 35\n200, 37\n300, 30\n");
   const auto tabulated = turn("angle_table = \"angle.csv\"");
   CHECK(tabulated.motion.displacement_m(0.1) == Approx(35 * std::numbers::pi / 180));
-  // What hangs on the body is turned with it by the 30 degrees of the first row.
+  // Bodies connected to it are rotated with it by the 30 degrees of the first row.
   const auto upper = read_model(folder, turntable("angle_table = \"angle.csv\""))
                          .model.bodies[1]
                          .initial_pose.rotation;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The model files that are shipped, against the experiments that are built in and against what is
-// known without either.
+// The shipped model files, compared with the built-in experiments and with independently known
+// results.
 #include <array>
 #include <numbers>
 
@@ -21,14 +21,14 @@ using testing::run;
 
 namespace {
 
-/// Two ways to the same model differ by rounding of the input only.
+/// Two ways to define the same model differ only by rounding of the input.
 constexpr double kSame = 1e-12;
 
 std::string shipped(const std::string& name) {
   return std::string(FLEXNECK_SOURCE_DIR) + "/pipeline/models/" + name;
 }
 
-/// The built-in study moves the same beam.
+/// The built-in study with the modes of the same beam.
 struct BuiltIn {
   Study study = read_study(built_in_study(), {});
   fe_modal::ModalBody body = testing::make_beam_body(testing::Beam());
@@ -39,7 +39,7 @@ struct BuiltIn {
   }
 };
 
-/// Markers and reactions, each against its largest value.
+/// Compares markers and reactions, each relative to its largest value.
 void check_same(const History& found, const History& expected) {
   REQUIRE(found.time_s.size() == expected.time_s.size());
   REQUIRE(found.markers.size() == expected.markers.size());
@@ -136,12 +136,12 @@ TEST_CASE("the shipped chain balances its energy, and its joints carry what hang
                                   energy.dissipated_J - energy.work_J;
   CHECK((balance.array() - balance[0]).abs().maxCoeff() <
         1e-6 * energy.work_J.cwiseAbs().maxCoeff());
-  // At rest: the feet carry all that stands on them, the neck's top the head.
+  // At rest the feet carry all weight above them, and the neck's top the head's.
   const double head_N = 9.921 * 0.45359237 * 9.80665;
   CHECK(history.joint("occipital").force_N.col(0).norm() == Approx(head_N).epsilon(1e-9));
   CHECK(history.joint("feet").force_N.col(0).norm() ==
         Approx(head_N + (12 + 8 + 1.21) * 9.80665).epsilon(1e-9));
-  // The head lags behind the sled that is thrown forward.
+  // The head lags behind the sled, which is accelerated forward.
   const Eigen::VectorXd lag =
       (history.marker("head.cg").position_m.row(0) - history.marker("sled.floor").position_m.row(0))
           .transpose();
@@ -163,7 +163,7 @@ TEST_CASE("the shipped four-bar closes its loop and names what is held twice") {
 TEST_CASE("the shipped squeezing mechanism ends where the published solution does") {
   const ModelFile file = read_model_file(shipped("andrews.toml"), {});
   const History history = run(file);
-  // beta, Theta, gamma, phi, delta, Omega, epsilon at 30 ms: the test set for initial value
+  // beta, Theta, gamma, phi, delta, Omega, epsilon at 30 ms, from the test set for initial value
   // problems.
   constexpr std::array kPublished = {15.81077119629904,   -15.75637105984298, 0.04082224013073101,
                                      -0.5347301163226948, 0.5244099658805304, 0.5347301163226948,

@@ -16,7 +16,7 @@ using testing::run_flexneck;
 
 namespace {
 
-/// The clamped bar of the examples with more in its study.
+/// Writes the clamped bar of the examples with additions to its study.
 std::string study_with(const TemporaryFolder& folder, const std::string& modes,
                        const std::string& more = {}) {
   const std::filesystem::path path = folder / "study.toml";
@@ -63,8 +63,8 @@ TEST_CASE("a point mass at a coupling is a body attached to a rigid interface") 
 TEST_CASE("of a bar on a spring and a pin the boundary tells what is left") {
   const TemporaryFolder folder;
   REQUIRE(run_flexneck("mesh -q " + study_with(folder, "")).exit_code == 0);
-  // Pinned on its axis: three translations and the rotation about the bar are gone, a torsional
-  // spring holds one of the two others.
+  // A pin on its axis removes three translations and the rotation about the bar; a torsional spring
+  // resists one of the two other rotations.
   const std::string pin =
       "fixed = []\n[[modes.coupling]]\nname = \"hub\"\nset = \"clamp\"\n"
       "position = [\"0 m\", \"0 m\", \"0 m\"]\n"
@@ -75,7 +75,7 @@ TEST_CASE("of a bar on a spring and a pin the boundary tells what is left") {
   const fe_modal::ModalBody body = modes_of(folder, pin + spring);
   CHECK(body.boundary == "fixed: support of 'hub'; turns about z");
   CHECK(body.frequencies_Hz[0] == 0);
-  // A rigid bar on the spring: sqrt(k / (m L^2 / 3)), softer than it bends by far.
+  // A rigid bar on the spring: sqrt(k / (m L^2 / 3)), much more flexible than the bar's bending.
   const double single_Hz = std::sqrt(2 / (0.81 * 0.25 / 3)) / (2 * 3.14159265358979);
   CHECK(body.frequencies_Hz[1] == Approx(single_Hz).epsilon(5e-3));
 }

@@ -28,7 +28,7 @@ TEST_CASE("a folder that cannot be made or written is refused") {
   check_refused(
       run_flexneck("mesh -o " + (folder / "file").string() + testing::kCoarseNeck + " -q"),
       "cannot be made a folder for results");
-  // Not even root makes a file there.
+  // Not even root can create a file there.
   check_refused(run_flexneck(std::string("mesh -q -o /proc/self") + testing::kCoarseNeck),
                 "/proc/self: cannot be written");
 }
@@ -44,15 +44,15 @@ TEST_CASE("one command at a time writes into a folder, and the second is told wh
     for (const char* const command : {"run", "mesh", "verify", "report", "simulate none.toml"})
       check_refused(run_flexneck(command + out),
                     folder.path().string() + ": is in use by 'flexneck run', process 7 on host");
-    // Who only reads is not kept out.
+    // Commands that only read are not blocked.
     CHECK(run_flexneck("study" + out).exit_code == 0);
     CHECK(run_flexneck("mesh --show" + out).exit_code == 0);
     CHECK(names_in(folder.path()).size() == 1);
   }
-  // The lock of a process that is gone holds nobody up.
+  // The lock of an ended process blocks nobody.
   check_refused(run_flexneck("verify" + out), "modes.h5: no such file");
   CHECK(names_in(folder.path()).empty());
-  // No folder is left of a command that makes nothing.
+  // A command that makes no results leaves no folder.
   check_refused(run_flexneck("verify" + out + "/new"), "modes.h5: no such file");
   CHECK(names_in(folder.path()).empty());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Runs of the pendulum against truths that use none of its code.
+// Runs of the pendulum, compared with references that use none of its code.
 #include <cmath>
 #include <numbers>
 
@@ -26,14 +26,14 @@ using Experiment = testing::BeamExperiment;
 
 namespace {
 
-/// Small motions of beam and head on an arm that is accelerated along x, by modal superposition:
-/// M q'' + C q' + K q = -p a(t), in complex modes of first order because C does not follow M and K.
+/// Small motions of beam and head on an arm accelerated along x, by modal superposition: M q'' + C
+/// q' + K q = -p a(t), in complex modes of first order because C is not proportional to M and K.
 class LinearPendulum {
  public:
   LinearPendulum(const fe_modal::ModalBody& neck, double damping_ratio,
                  const multibody::RigidBody& head) {
     const fe_modal::Interface& top = neck.interface("top");
-    // Of the head's c.g.: translation of the top and the lever of its rotation.
+    // Motion of the head's c.g.: translation of the top and the lever of its rotation.
     B_ = top.translation - skew(head.center_m) * top.rotation;
     const MatrixXd mass = neck.invariants.Maa + head.mass_kg * B_.transpose() * B_ +
                           top.rotation.transpose() * head.inertia_kg_m2 * top.rotation;
@@ -53,7 +53,7 @@ class LinearPendulum {
     beta_ = pairs.inverse * b;
   }
 
-  /// [q; q'] at a time from rest, under an acceleration that is linear between rows.
+  /// State [q; q'] at a time, starting at rest, under an acceleration that is linear between rows.
   VectorXd state(const std::vector<double>& times_s, const std::vector<double>& acceleration,
                  double time_s) const {
     Eigen::VectorXcd z = Eigen::VectorXcd::Zero(lambda_.size());
@@ -80,12 +80,12 @@ class LinearPendulum {
   Eigen::MatrixXcd shapes_;
 };
 
-/// Of a neck's top in a plane, summed over its modes.
+/// Compliance of a neck's top in a plane, summed over its modes.
 struct TopCompliance {
   double displacement_to_force = 0, displacement_to_moment = 0, rotation_to_moment = 0;
 };
 
-/// Fore-aft the top moves along x and turns about y, laterally along y and about -x.
+/// Fore-aft the top moves along x and rotates about y, laterally along y and about -x.
 TopCompliance top_compliance(const fe_modal::ModalBody& neck, bool lateral) {
   const fe_modal::Interface& top = neck.interface("top");
   const VectorXd softness = (2 * std::numbers::pi * neck.frequencies_Hz).cwiseAbs2().cwiseInverse();
@@ -118,7 +118,7 @@ TEST_CASE("a small pulse moves head and neck as modal superposition says") {
   for (double& value : acceleration) value *= -1;
   const fe_modal::Interface& top = experiment.body.interface("top");
   const double largest = head.cwiseAbs().maxCoeff();
-  // Rotations of a ten-thousandth: what is not linear is of their size, relative.
+  // Rotations are about 1e-4: nonlinear effects are of that relative size.
   constexpr double kNotLinear = 3e-4;
   REQUIRE(largest > 5e-5);
   for (Eigen::Index k = 0; k < head.size(); k += 20) {
@@ -156,7 +156,7 @@ TEST_CASE("moments at the condyles are what moves the head, whatever holds it") 
     const Vector3d force =
         head.mass_kg * (to_head * (cg.acceleration_m_s2.col(k) - experiment.study.gravity_m_s2));
     const Matrix3d& J = head.inertia_kg_m2;
-    // About the axis of bending the head's axes are the neck's; SAE reverses y.
+    // For the axis of bending the head's axes are the neck's; SAE reverses y.
     const auto moment_about = [&](const Vector3d& point_m) {
       const Vector3d m = J * alpha + w.cross(J * w) + (head.center_m - point_m).cross(force);
       return lateral ? m.x() : -m.y();
@@ -166,7 +166,7 @@ TEST_CASE("moments at the condyles are what moves the head, whatever holds it") 
     CHECK(std::abs(moment[k] - expected) < 1e-6 * size);
     CHECK(std::abs(signals.cell_moment[k] - moment_about(cell_m)) < 1e-6 * size);
     CHECK(std::abs(signals.cell_shear[k] - shear) < 1e-6 * size / cell_m.z());
-    // The formula takes 0.058 ft off again; the filter does next to nothing.
+    // The formula subtracts 0.058 ft; the filter has hardly any effect.
     const double arms = (lateral ? -1 : 1) * (cell_m.z() - 0.058 * 0.3048);
     if (run.history.time_s[k] > 0.005)
       CHECK(std::abs(cell[k] - expected - arms * shear) < 5e-3 * size);
@@ -201,10 +201,10 @@ TEST_CASE("an arm with a pivot far away is one that translates") {
                          "head rotation");
   };
   const VectorXd straight = rotation(translating);
-  // Centripetal accelerations fall with the distance.
+  // Centripetal accelerations decrease with the distance.
   CHECK((rotation(rotating) - straight).cwiseAbs().maxCoeff() < 1e-4 * straight.maxCoeff());
 
-  // Nearer, the neck's base moves faster than the accelerometer below the pivot.
+  // At a shorter distance the neck's base moves faster than the accelerometer below the pivot.
   rotating.pivot_distance_m = 2;
   rotating.accelerometer_distance_m = 1.6;
   const PendulumRun run = run_pendulum(experiment.study, rotating, experiment.body);
@@ -229,7 +229,7 @@ TEST_CASE("an equivalent rigid neck is as stiff and as quick as the deformable o
     const bool lateral = section.direction == Direction::lateral;
     const double omega =
         2 * std::numbers::pi * (lateral ? testing::Beam().lateral_Hz : testing::Beam().fore_aft_Hz);
-    // The link has the modes' own compliance, mass and damping, but for rounding.
+    // The link has the modes' own compliance, mass and damping, except for rounding.
     constexpr double kRounding = 1e-12;
     const TopCompliance modal = top_compliance(experiment.body, lateral);
     const double k1 = stiffness(rigid.lower.resistance);
@@ -242,16 +242,16 @@ TEST_CASE("an equivalent rigid neck is as stiff and as quick as the deformable o
     CHECK(rigid.lower.resistance.damping == Approx(damping_time_s * k1).epsilon(kRounding));
     CHECK(rigid.upper.resistance.damping == Approx(damping_time_s * k2).epsilon(kRounding));
 
-    // A clamped beam of flexural stiffness EI and length L: pivot 2 L / 3 below the top, springs
-    // 4 EI / 3 L and 4 EI / L. The two modes in the plane leave half a per cent out of c_uF, 3 %
-    // out of c_uM, which counts twice, and far more out of c_tM.
+    // A clamped beam of flexural stiffness EI and length L: pivot 2 L / 3 below the top, springs 4
+    // EI / 3 L and 4 EI / L. The two modes in the plane lack half a per cent of c_uF, 3 % of c_uM,
+    // which counts twice, and much more of c_tM.
     const double beam_m = experiment.body.interface("top").position_m.z();
     const double EI = std::pow(omega / std::pow(testing::kClampedFree[0], 2), 2) *
                       testing::Beam().mass_kg * std::pow(beam_m, 3);
     CHECK(length_m == Approx(2 * beam_m / 3).epsilon(0.03));
     CHECK(k1 == Approx(4 * EI / (3 * beam_m)).epsilon(0.07));
     CHECK(k2 > 4 * EI / beam_m);
-    // With the head on, static compliance makes the frequency.
+    // With the head attached, static compliance determines the frequency.
     const auto frequency = [&](const std::string& variant) {
       return first_system_mode(experiment.study, experiment.named(name + variant), experiment.body,
                                false);
@@ -274,10 +274,10 @@ TEST_CASE("a pin across the plane of a lateral test leaves its motion as it is")
     const VectorXd expected = rotation("lateral-65");
     return (rotation("lateral-65-spring") - expected).cwiseAbs().maxCoeff() / expected.maxCoeff();
   };
-  // The c.g. is in front of the pin: gravity, and what a large rotation throws outwards, let it
-  // nod.
+  // The c.g. is in front of the pin: gravity, and the centrifugal load at a large rotation, make
+  // the head nod.
   CHECK(difference(Experiment({R"(solver.gravity=["0 gn", "0 gn", "0 gn"])"})) < 4e-3);
-  // A head that is the same before and behind the pin does not nod at all.
+  // A head that is symmetric in front of and behind the pin does not nod at all.
   CHECK(difference(Experiment(
             {R"(body.head.center=["0 in", "0 in", "2 in"])",
              R"(body.head.inertia=["0.017 kg*m^2", "0.024 kg*m^2", "0.021 kg*m^2"])"})) < 1e-9);

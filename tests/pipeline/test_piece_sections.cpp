@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The certification test's neck, rigid plates with sections of rubber that are pieces of the
-// structure, on the coarsest neck that can be slit.
+// The certification test's neck, rigid plates with sections made from submeshes of the rubber, on
+// the coarsest mesh that can be slit.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -32,7 +32,7 @@ namespace {
 const Settings kCoarse = {"mesh.quadrant=2", "mesh.inner_ring=2", "mesh.rubber_layers=2",
                           "geometry.bolt_patch_radius=0.4 in"};
 
-/// The neck and its pieces, made by the command.
+/// The neck and its submeshes, made by the command.
 class Made {
  public:
   explicit Made(const Settings& settings, const Settings& mesh = kCoarse) : settings_(settings) {
@@ -49,7 +49,7 @@ class Made {
 
   mesher::Mesh mesh() const { return mesher::read_mesh(folder_ / "mesh.h5").mesh; }
   fe_modal::ModalBody whole() const { return body("modes"); }
-  /// The study with its pieces.
+  /// The study with its submeshes.
   Study study(const Settings& more = {}) const {
     Settings all = settings_;
     all.insert(all.end(), more.begin(), more.end());
@@ -86,7 +86,7 @@ std::vector<multibody::SystemMode> modes_of_chain(const Study& study) {
 TEST_CASE("rigid plates and sections swing under the head as the finite element neck does") {
   const std::string slits = GENERATE("closed", "open");
   const Made made({"geometry.slits=" + slits, "substructures.slits=cracks"});
-  // Hardly anything relaxes.
+  // The relaxing share is negligible.
   const Study study = made.study({"variables.relaxing_share=1e-6"});
   const std::vector<multibody::SystemMode> found = modes_of_chain(study);
   const fe_modal::ModalBody whole = made.whole();
@@ -136,8 +136,7 @@ TEST_CASE("the report tells loss factor and storage of the relaxing rubber, and 
   const ResultTable table = relaxation_table(
       Made({}).study({"variables.relaxing_share=0.39", "variables.relaxation_time=29 ms"}));
   REQUIRE(table.rows.size() == 9);
-  // Of one branch at 5 Hz: x = w tau = 0.9111, storage 1 - 0.39 / (1 + x^2), loss 0.39 x / (1 +
-  // x^2).
+  // One branch at 5 Hz: x = w tau = 0.9111, storage 1 - 0.39 / (1 + x^2), loss 0.39 x / (1 + x^2).
   const std::vector<std::string> expected = {"disc_1, disc_2, disc_3, disc_4", "5", "0.787",
                                              "0.247"};
   CHECK(table.rows[3] == expected);

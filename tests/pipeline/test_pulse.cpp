@@ -23,7 +23,7 @@ namespace {
 const std::vector<double> kTimes = {0.002, 0.01, 0.03, 0.04};
 const std::vector<double> kValues = {10, 200, 150, 0};
 
-/// Trapezoids, exact for what is linear between rows.
+/// Trapezoidal rule, exact for functions that are linear between rows.
 double area(const std::vector<double>& x, const std::vector<double>& y) {
   double sum = 0;
   for (std::size_t k = 1; k < x.size(); ++k) sum += (x[k] - x[k - 1]) * (y[k] + y[k - 1]) / 2;
@@ -54,7 +54,7 @@ TEST_CASE("a pulse is brought to a velocity by its amplitude or by its duration"
 TEST_CASE("the spectrum of a pulse is its Fourier integral") {
   for (const double frequency_Hz : {0.0, 1e-3, 5.0, 36.1, 250.0}) {
     INFO(frequency_Hz);
-    // Midpoints, of order 2: the error falls with the square of the interval.
+    // Midpoint rule, of order 2: the error falls with the square of the interval.
     constexpr int kSteps = 40000;
     std::complex<double> sum = 0;
     for (std::size_t k = 1; k < kTimes.size(); ++k) {

@@ -21,7 +21,7 @@ using testing::run_flexneck;
 
 namespace {
 
-/// Without mpirun's own word on a process that fails.
+/// Runs a command by mpirun and removes mpirun's own message on a failed process.
 CommandOutcome run_by_mpi(const std::string& processes) {
   return testing::run_shell(
       "timeout 100 env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1 "
@@ -39,7 +39,7 @@ void require_success(const CommandOutcome& outcome) {
   REQUIRE(outcome.exit_code == 0);
 }
 
-/// The same body but for rounding.
+/// Checks that two bodies are equal except for rounding.
 void check_same(const fe_modal::ModalBody& one, const fe_modal::ModalBody& other) {
   REQUIRE(one.mode_count() == other.mode_count());
   for (Eigen::Index k = 0; k < one.mode_count(); ++k) {
@@ -47,7 +47,7 @@ void check_same(const fe_modal::ModalBody& one, const fe_modal::ModalBody& other
     INFO(one.modes[mode].name);
     CHECK(other.frequencies_Hz[k] == Approx(one.frequencies_Hz[k]).epsilon(1e-9));
     CHECK(one.modes[mode].name == other.modes[mode].name);
-    // The eigensolver's tolerance over the relative distance of the closest frequencies.
+    // Tolerance of the eigensolver over the relative distance of the closest frequencies.
     CHECK((one.shapes[mode] - other.shapes[mode]).norm() < 1e-6 * one.shapes[mode].norm());
     CHECK(other.modes[mode].residual < 1e-6);
   }
@@ -98,7 +98,7 @@ TEST_CASE("ranks that are asked for different things say so in one line, and all
     check_refused(run_by_mpi(rank + modes + " : " + rank + other), "rank 1 was given '" + other);
     check_refused(run_by_mpi(rank + other + " : " + rank + modes), "rank 1 was given '" + modes);
   }
-  // The same words, but each finds another study in its folder.
+  // Both commands are equal, but each finds another study in its folder.
   for (const char* const name : {"one", "two"}) {
     std::filesystem::create_directory(folder / name);
     testing::write_test_file(folder / (std::string(name) + "/study.toml"),
@@ -159,7 +159,7 @@ TEST_CASE("what fails on the second rank only is said once by the first, and bot
   const TemporaryFolder folder;
   const std::string out = folder.path().string();
   require_success(run_flexneck("mesh -q -o " + out + testing::kCoarseNeck));
-  // The second rank has the first element, whose centre is far outside.
+  // The second rank has the first element, whose centre node is moved far outside.
   mesher::MeshFile file = mesher::read_mesh(folder / "mesh.h5");
   file.mesh.nodes[static_cast<std::size_t>(file.mesh.blocks[0].nodes[26])][2] += 1;
   std::size_t elements = 0;

@@ -26,7 +26,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// The branches that a section gets from a law.
+/// The branches of a section with a relaxation law.
 Relaxation branches_of(const std::string& law) {
   const std::string text =
       "[solver]\nend_time = \"1 s\"\n[[body]]\nname = \"ground\"\nkind = \"ground\"\n" +
@@ -83,7 +83,7 @@ TEST_CASE("least squares that are not negative meet the conditions of their mini
 }
 
 TEST_CASE("a table made of Maxwell branches gives them back") {
-  // The times that three branches get between these ends.
+  // Relaxation times of three branches between these ends.
   const std::vector<double> times_s = {1e-3, 1e-2, 1e-1};
   const Relaxation made{times_s, {0.2, 0.1, 0.4}, {}, {}};
   SECTION("dynamic modulus") {
@@ -141,12 +141,13 @@ TEST_CASE("branches of a fractional law follow its modulus, and its relaxation i
       const std::complex<double> law = fractional_ratio(kShare, kTime_s, 0.5, f);
       error = std::max(error, std::abs(modulus_ratio(found, f) - law) / std::abs(law));
     }
-    // With many the band's ends are left, whose spectrum goes on beyond.
+    // With many branches only the error at the band's ends remains, beyond which the spectrum
+    // continues.
     CHECK(error < (count < 9 ? 0.5 : 1) * last);
     last = error;
     if (count < 9) continue;
     CHECK(error < 0.015);
-    // Of order 1/2 the law relaxes as 1 - share (1 - exp(x) erfc(sqrt x)), x = t / tau
+    // With order 1/2 the law relaxes as 1 - share (1 - exp(x) erfc(sqrt x)), x = t / tau
     // (Mittag-Leffler's function of order 1/2).
     for (const double t : {0.001, 0.002, 0.004, 0.008, 0.016, 0.032, 0.064, 0.128, 0.256}) {
       const double x = t / kTime_s;
@@ -175,7 +176,7 @@ TEST_CASE("laws of relaxation that make no sense, or that branches do not follow
       "modulus = \"5 MPa\", frequencies = [\"10 Hz\", \"1 Hz\"], storage = [\"3 MPa\", \"4 MPa\"]"
       ", loss = [\"0 MPa\", \"0 MPa\"]",
       "increase strictly, but not so is number 2");
-  // Storage that falls with frequency is no spectrum of relaxation.
+  // A storage modulus that falls with frequency is not a spectrum of relaxation.
   refused(table + "storage = [\"4 MPa\", \"2 MPa\"], loss = [\"1 MPa\", \"1 MPa\"]",
           "miss a table of the dynamic modulus");
 }

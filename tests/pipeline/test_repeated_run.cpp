@@ -46,7 +46,7 @@ TEST_CASE("a run twice gives the same bytes, and knows the paper only in its ver
   };
   for (const char* const name : {"flexion", "extension", "lateral"})
     add_case("static-" + std::string(name));
-  // 11 drops and the variants of them.
+  // There are 11 drops and their variants.
   std::vector<std::string> drops = {"lateral-65"};
   for (const char* const way : {"flexion-", "extension-"})
     for (const char* const angle : {"20", "40", "60", "80", "120"})
@@ -84,24 +84,24 @@ effective_damping = 1
     return nlohmann::json::parse(bytes_of(folder / (name + "/verification.json")));
   };
   CHECK_FALSE(json_of("second")["passed"].get<bool>());
-  // What a regulation says of the neck is a result, and no business of the exit code.
+  // Verdicts of a regulation on the neck are results, and do not affect the exit code.
   CHECK_THAT(outcome.text, Contains("572.33 flexion") && Contains("572.33 extension"));
   const auto verdicts = nlohmann::json::parse(bytes_of(folder / "first/verdicts.json"));
   CHECK(verdicts["tables"][0]["name"] == "verdicts");
   CHECK(verdicts["tables"][0]["rows"].size() == 4);
   CHECK(verdicts["tables"][0]["rows"][0][3] == "FAIL");
   CHECK(verdicts["provenance"]["inputs"].dump().find("572.33.toml") != std::string::npos);
-  // They are called what their file says they are.
+  // The figures are named as their file says.
   CHECK_THAT(again.text, Contains("Verification against synthetic figures"));
   CHECK_THAT(outcome.text, Contains("Verification against published figures"));
   CHECK(json_of("first")["rows"][0]["value"] == json_of("second")["rows"][0]["value"]);
 
-  // The provenance names the study file, so compare what was computed.
+  // The provenance names the study file, so compare the computed results.
   const CommandOutcome third = run_flexneck("run --force -o " + second + kCoarse);
   CHECK(third.text.substr(0, third.text.find(second)) ==
         outcome.text.substr(0, outcome.text.find(first)));
   for (const std::string& name : expected) {
-    // Measured, and what shows it.
+    // Measured times, and files that show them.
     if (name == "timing.json" || name == "report.html" || name == "stages.json") continue;
     INFO(name);
     if (fs::is_directory(folder / ("first/" + name))) {
@@ -111,7 +111,7 @@ effective_damping = 1
     CHECK(bytes_of(folder / ("first/" + name)) == bytes_of(folder / ("second/" + name)));
   }
 
-  // What has not changed is kept, its tables are shown again.
+  // Unchanged stages are kept, and their tables are shown again.
   const CommandOutcome kept = run_flexneck("run -o " + second + kCoarse);
   CHECK(kept.exit_code == outcome.exit_code);
   CHECK_THAT(kept.text, Contains("Nothing has changed for report: kept") && !Contains("Meshing") &&
@@ -119,7 +119,7 @@ effective_damping = 1
                             Contains("Head/neck pendulum") && Contains("torsion 2"));
   const CommandOutcome touched =
       run_flexneck("run -o " + second + kCoarse + " --set case.flexion-60.duration='0.9 s'");
-  // The case, and what four variants make of it.
+  // The case and its four variants are affected.
   CHECK_THAT(touched.text, Contains("Nothing has changed for modes: kept") &&
                                Contains("Nothing has changed for static: kept") &&
                                Contains("Nothing has changed for 41 of 46 pendulum cases: kept") &&
@@ -130,7 +130,7 @@ effective_damping = 1
                                Contains("Writing the report"));
   CHECK(bytes_of(folder / "first/modes.h5") == bytes_of(folder / "second/modes.h5"));
 
-  // ReferenceFacet by side they differ in that value and nothing else that they were made with.
+  // Compared side by side the runs differ in that value and in no other setting.
   const std::string both = (folder / "both").string();
   const CommandOutcome compared = run_flexneck("compare " + first + " " + second + " -o " + both);
   CHECK(compared.exit_code == 0);

@@ -161,7 +161,7 @@ TEST_CASE("a restart keeps the turns of a wound spring, and tells that masses ha
     return std::pair(multibody::read_history(folder / (name + ".h5")), outcome.text);
   };
   run_into("whole", text);
-  // At 0.5 s, after 2.7 turns.
+  // The run resumes at 0.5 s, after 2.7 turns.
   const std::string restart = "[restart]\nfile = \"whole.h5\"\ntime = \"0.5 s\"\n";
   const auto [rest, said] = run_into("rest", restart + text);
   CHECK(said.empty());

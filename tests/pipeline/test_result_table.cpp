@@ -40,7 +40,7 @@ TEST_CASE("a table that is wider than the console goes on below, behind its firs
   std::istringstream lines(printed(table));
   std::vector<std::string> shown;
   for (std::string line; std::getline(lines, line);) shown.push_back(line);
-  REQUIRE(shown.size() == 1 + 3 * 4 + 2);  // three blocks, an empty line between them
+  REQUIRE(shown.size() == 1 + 3 * 4 + 2);  // three blocks, separated by an empty line
   for (const std::string& line : shown) CHECK(line.size() <= 101);  // α is two bytes
   CHECK(shown[1] ==
         "  case  column number 1  column number 2  column number 3  column number 4  "

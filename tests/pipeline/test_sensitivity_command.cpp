@@ -36,7 +36,7 @@ std::size_t longest_line_but_warnings(const std::string& text) {
   return longest;
 }
 
-/// Values of interest: frequencies by name, those with the head, stiffnesses at the top, mass.
+/// Results in a folder: frequencies by name, those with the head, stiffnesses at the top, mass.
 std::map<std::string, double> results_in(const fs::path& folder) {
   const fe_modal::ModalBody body = fe_modal::read_modal_body(folder / "modes.h5").body;
   std::map<std::string, double> values = {{"mass", body.invariants.mass}};
@@ -57,7 +57,7 @@ struct Derivative {
   double value = 0;
 };
 
-/// Of an input, by the names of the quantities.
+/// Derivatives by an input, by the names of the quantities.
 std::map<std::string, Derivative> derivatives_by(const fs::path& file, const std::string& input) {
   const auto json = nlohmann::json::parse(text_of_file(file));
   std::map<std::string, Derivative> found;
@@ -125,7 +125,7 @@ TEST_CASE("modes --sensitivity gives the derivatives that repeated runs have") {
   CHECK_THAT(text_of_file(base / "report.html"),
              Contains("What each input does") && Contains("alt=\"Picture: What one per cent"));
   CHECK(fs::exists(base / "figures/tornado.svg"));
-  // They belong to the modes that they were made with.
+  // Sensitivities are valid only for the modes with which they were made.
   REQUIRE(run_flexneck("modes -q" + out).exit_code == 0);
   CHECK_FALSE(fs::exists(base / "sensitivities.json"));
   REQUIRE(run_flexneck("report -q" + out).exit_code == 0);
@@ -143,7 +143,7 @@ TEST_CASE("of a script's constants those have sensitivities that move nodes") {
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.text,
              Contains("geometry.constants.along is left out: it changes the topology"));
-  // Slender: f ~ length^-2, sqrt(E / rho).
+  // A slender bar: f ~ length^-2, sqrt(E / rho).
   const auto by = [&](const std::string& key) {
     const Derivative found = derivatives_by(folder / "sensitivities.json", key).at("mode 1");
     const fe_modal::ModalBody body = fe_modal::read_modal_body(folder / "modes.h5").body;

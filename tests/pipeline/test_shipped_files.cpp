@@ -43,14 +43,14 @@ TEST_CASE("no two shipped studies or models have the same name, and each is foun
 
 TEST_CASE("a file that is here goes before a shipped one, with or without its ending") {
   const TemporaryFolder folder;
-  fs::create_directory(folder / "chain");  // of results, perhaps
+  fs::create_directory(folder / "chain");  // perhaps a folder of results
   CHECK(named_file("chain", folder.path()) == shipped_file("pipeline/models/chain.toml"));
   const fs::path own = touched(folder / "chain.toml");
   CHECK(named_file("chain", folder.path()) == own);
   CHECK(named_file("chain.toml", folder.path()) == own);
   const fs::path plain = touched(folder / "dummy");
   CHECK(named_file("dummy", folder.path()) == plain);
-  // A path is a path.
+  // A name with a folder is a path.
   CHECK(named_file("sub/dummy.toml", folder.path()) == folder / "sub/dummy.toml");
 }
 

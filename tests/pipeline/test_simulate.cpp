@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command as it is built.
+// Tests of the built command.
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -50,7 +50,7 @@ TEST_CASE("simulate writes histories and a table, tells what it took, and does s
   const std::string table = bytes_of(folder / "out/swing.csv");
   CHECK(lines_in(table) == 202);
   CHECK_THAT(table, Catch::Matchers::StartsWith("time [s],ground.hook position x [m],"));
-  // Read back exactly.
+  // The numbers are read back exactly.
   const std::string last = table.substr(table.rfind('\n', table.size() - 2) + 1);
   CHECK(std::stod(last) == file.history.time_s[200]);
 
@@ -109,7 +109,7 @@ TEST_CASE("simulate tells the modes of small motions and keeps their shapes") {
 }
 
 TEST_CASE("simulate draws a Campbell diagram and says which motion about steady rotation grows") {
-  // 1 kg on a rail that turns with the hub, held to the axis by 400 N/m.
+  // 1 kg on a rail that rotates with the hub, connected to the axis by 400 N/m.
   const std::string text = R"(
 [solver]
 end_time = "2 ms"

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The arm goes round: its angle passes half a turn, where a block of outputs may end.
+/// The arm rotates fully: its angle passes half a turn, where a block of outputs may end.
 constexpr const char* kChannels = R"(
 [[channel]]
 name = "turned"
@@ -50,7 +50,7 @@ ModelFile model_in(const TemporaryFolder& folder, const std::string& channels) {
   return read_model_file(testing::write_test_file(folder / "swing.toml", fast + channels), {});
 }
 
-/// Runs a model whose outputs come in blocks.
+/// Runs a model with outputs in blocks.
 void write(const ModelFile& model, const fs::path& stem, Eigen::Index block) {
   multibody::OutputOptions options{model.end_time_s, model.output.interval_s};
   SimulatedOutput output(model, fs::path(stem).concat(".h5"), fs::path(stem).concat(".csv"), 201);
@@ -98,7 +98,7 @@ TEST_CASE("outputs that come in blocks leave the files of a whole run") {
     INFO(block);
     write(model, folder / "blocks", block);
     check_same(multibody::read_history(folder / "blocks.h5"), whole);
-    // The table has the same numbers; angles that are counted on may differ in their last digit.
+    // The table has the same numbers; counted angles may differ in their last digit.
     if (channels.empty()) CHECK(bytes_of(folder / "blocks.csv") == bytes_of(folder / "whole.csv"));
   }
 }

@@ -25,8 +25,8 @@ std::string list_of(const Vector4d& values) {
 }
 
 /// The connecting rod of the flexible slider-crank of B. Simeon (test set for initial value problem
-/// solvers, problem "crank"): two modes along y, two along x, with the published matrices, of which
-/// the longitudinal masses lack a factor 1/15.
+/// solvers, problem "crank"): two modes along y, two along x, with the published matrices, whose
+/// longitudinal masses lack a factor 1/15.
 struct Rod {
   static constexpr double kPi = 3.1415927;  // as published
   static constexpr double L = 0.3, b = 0.008, E = 2e11, rho = 7870;
@@ -62,7 +62,7 @@ struct Rod {
     inertia.N0.setZero(3, 4);
     inertia.N0.row(2) = c21;
     inertia.Maa = mass;
-    // -int rho ~p ~q = int rho ((p.q) 1 - q p^T), of fields along x and along y.
+    // -int rho ~p ~q = int rho ((p.q) 1 - q p^T), for fields along x and along y.
     for (Eigen::Index j = 0; j < 4; ++j) {
       Eigen::Matrix3d G0 = Eigen::Vector3d(0, c12[j], c12[j]).asDiagonal();
       G0(1, 0) = -c21[j];

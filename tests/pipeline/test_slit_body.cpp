@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The slit neck as one deformable body with gaps, beside the plates and sections of the same mesh.
+// The slit neck as one deformable body with gaps, compared with plates and sections from the same
+// mesh.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -95,7 +96,7 @@ double rotation(const std::filesystem::path& folder, const std::string& text,
   return 2 * std::atan2(at(2, at.cols() - 1), at(0, at.cols() - 1));
 }
 
-/// Figures of a case of a study's pendulum on a coarse mesh.
+/// Results of a case of a study's pendulum on a coarse mesh.
 class PendulumFigures {
  public:
   explicit PendulumFigures(const std::string& study_and_options)
@@ -112,7 +113,7 @@ class PendulumFigures {
   }
   std::filesystem::path modes() const { return folder_ / "modes.h5"; }
 
-  /// Of the first column of that name.
+  /// Value in the first column of that name.
   double value(const std::string& table, const std::string& column) const {
     const auto named = [](const std::string& name) {
       return [name](const auto& each) { return each.name == name; };
@@ -136,7 +137,7 @@ class PendulumFigures {
   std::vector<pipeline::ResultTable> tables_;
 };
 
-/// An offset of modes out of the plane of the case, which moves no interface.
+/// Text of an offset of modes out of the plane of the case, which moves no interface.
 std::string lateral_offset(const fe_modal::ModalBody& body) {
   const fe_modal::ModalBody modes = fe_modal::with_gap_coordinates(body).modes;
   std::vector<Eigen::Index> lateral;
@@ -165,7 +166,7 @@ TEST_CASE("a neck as one body with gaps swings in the test as plates and elastic
                               "/hybrid3_qualification.toml"
                               " --set substructures.slits=openings"
                               " --set variables.relaxing_share=1e-9");
-  // Gravity holds all slits open; beyond, the one body is linear in its own frame.
+  // Gravity keeps all slits open; apart from that the single body is linear in its own frame.
   const auto ratio = [&](const char* table, const char* column) {
     return one.value(table, column) / chain.value(table, column);
   };
@@ -173,7 +174,7 @@ TEST_CASE("a neck as one body with gaps swings in the test as plates and elastic
   CHECK(ratio("peaks", "head rotation") == Approx(1).epsilon(0.04));
   CHECK(ratio("peaks", "at") == Approx(1).epsilon(0.06));
 
-  // Small motions in the plane leave out the other modes, with all that is given for each of them.
+  // Small motions in the plane leave out the other modes, with all values given for them.
   const double straight = one.value("oscillations", "eigenvalue");
   one.swing(" --set 'pendulum.duration=2 ms'" +
             lateral_offset(fe_modal::read_modal_body(one.modes()).body));

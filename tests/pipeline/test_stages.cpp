@@ -27,7 +27,7 @@ Provenance from(const std::string& value) {
   return provenance;
 }
 
-/// Two stages, the second from what the first writes; tells which of them ran.
+/// Runs two stages, the second with the first's output; returns which of them ran.
 std::string run(const fs::path& folder, const std::string& length, const std::string& mass,
                 bool redo = false) {
   Stages stages(folder, redo);
@@ -54,7 +54,7 @@ TEST_CASE("a stage runs if what it is made from or what it wrote has changed, el
   CHECK(run(folder.path(), "2 m", "5 kg") == "first second");
   CHECK(run(folder.path(), "2 m", "5 kg").empty());
   CHECK(run(folder.path(), "2 m", "6 kg") == "second");
-  // Another length, but the first stage writes the same: the second has nothing to do.
+  // With another length the first stage writes the same: the second need not run.
   CHECK(run(folder.path(), "3 m", "6 kg") == "first ");
   CHECK(run(folder.path(), "10 m", "6 kg") == "first second");
   CHECK(run(folder.path(), "10 m", "6 kg", true) == "first second");
@@ -161,7 +161,7 @@ TEST_CASE("a result of a stage before is refused once a file that it was made fr
     check("");
     write(folder / "part.geo", "W = 2;");
     check("part.geo");
-    fs::remove(folder / "part.geo");  // of a folder that was moved elsewhere nothing can be said
+    fs::remove(folder / "part.geo");  // a moved folder's inputs cannot be checked
     check("");
     // A script that runs commands may write it.
     write(folder / "bar.geo", "SystemCall \"make\"; Include \"part.geo\";");

@@ -14,7 +14,7 @@ using namespace flexneck::pipeline;
 
 namespace {
 
-/// Deflection and rotation of the top in the plane for a unit force, K^-1 f of the modal body.
+/// Deflection and rotation of the top in the plane under a unit force, K^-1 f of the modal body.
 std::array<double, 2> compliance(const fe_modal::ModalBody& body, Eigen::Index along,
                                  Eigen::Index about) {
   const fe_modal::Interface& top = body.interface("top");
@@ -45,7 +45,8 @@ TEST_CASE("at rest the tester shows K^-1 f in every direction") {
     const auto [deflection, rotation] = compliance(experiment.body, along, about);
     const Eigen::Index last = signals.load.size() - 1;
     CHECK(signals.load[last] == Approx(kNewton).epsilon(1e-12));
-    // The body is linear: in proportion to any load. A rotation towards +y is one about -x.
+    // The body is linear: results are proportional to the load. A rotation towards +y is one about
+    // -x.
     for (const Eigen::Index k : {last / 4, last}) {
       const double force = sense * signals.load[k];
       CHECK(signals.deflection[k] == Approx(deflection * force).epsilon(1e-7));
@@ -64,8 +65,8 @@ TEST_CASE("the moving ramp lags by the damping of the modes") {
   entry.settled = static_test_signals(
       model, settled_static_test(experiment.study, entry.experiment, model), entry.experiment);
   const ResultTable table = ramp_table({entry});
-  // A mode lags by 2 zeta / omega; the rotation by the mean of that over what each mode makes of
-  // it.
+  // A mode lags by 2 zeta / omega; the rotation by the mean of that, weighted with each mode's
+  // contribution.
   const double ratio = experiment.study.model.of_structure.begin()->second.damping_ratio.value();
   const fe_modal::Interface& top = experiment.body.interface("top");
   double lagging = 0;

@@ -55,7 +55,7 @@ TEST_CASE("a seat back's frame weighs what it must and swings slower with a head
   const auto modes = fe_modal::read_modal_body(folder / "modes.h5").body;
   REQUIRE(modes.attached.size() == 1);
   CHECK(modes.attached[0].frequencies_Hz[0] < modes.frequencies_Hz[0]);
-  // Fore-aft, two clamped posts bend with the mass of the upper rail and half of themselves: the
+  // Fore-aft, two clamped posts bend with the mass of the upper rail and half of their own: the
   // frame cannot be stiffer than with rigid rails, nor as slow as without the lower rail's mass.
   const double post = 7850 * 0.025 * 0.025 * 0.6;
   const double stiffness = 2 * 3 * 210e9 * std::pow(0.025, 4) / 12 / std::pow(0.6, 3);

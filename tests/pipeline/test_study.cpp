@@ -23,7 +23,8 @@ Study built_in(const std::vector<std::string>& settings = {}) {
   return read_study(built_in_study(), settings);
 }
 
-/// Everything a physical result depends on; names, directions and numerical settings do not count.
+/// True for parameters that affect a physical result; names, directions and numerical settings do
+/// not.
 bool is_physical(const Parameter& parameter) {
   const std::vector<std::string> plain = {"name",      "kind",   "body",  "lower",
                                           "upper",     "parts",  "modes", "marker",
@@ -63,7 +64,7 @@ TEST_CASE("a neck with a dimension of the user's own no longer counts as fitted"
   CHECK(fits_with_slits("closed") == 3);  // tied shut: the same neck
   CHECK(fits_with_slits("open") == 0);
 
-  // Whatever origin the user gives it.
+  // A changed dimension counts whatever origin the user gives it.
   const TemporaryFolder folder;
   for (const char* const line :
        {"[geometry]\nplate_thickness = { value = \"0.4 in\", origin = \"published\" }",
@@ -82,7 +83,7 @@ TEST_CASE("a fit that names its values by their hash holds for these alone, wher
     std::ofstream(folder / name) << text;
     return folder / name;
   };
-  // A dimension of the user's own, one of them by a variable, with that file's hash.
+  // Dimensions of the user, one of them by a variable, with that file's hash.
   const std::string mine = "include = [\"" + built_in_study().string() +
                            "\"]\n[variables]\nthick = \"0.4 in\"\n[geometry]\n"
                            "plate_thickness = \"$thick\"\nfitted_to = [\"bending 1\"]\n";
@@ -98,7 +99,7 @@ TEST_CASE("a fit that names its values by their hash holds for these alone, wher
   CHECK(holds(fitted, {"mesh.quadrant=6", "body.neck.damping_ratio=0.5"}));
   CHECK_FALSE(holds(fitted, {"geometry.top_plate_thickness=0.3 in"}));
   CHECK_FALSE(holds(fitted, {"variables.thick=0.41 in"}));
-  // By a file beside it, whatever origin it gives.
+  // Values changed by a file that includes it, whatever origin it gives.
   const std::string include = "include = [\"fitted.toml\"]\n";
   CHECK(holds(write("same.toml", include)));
   for (const char* const change :
@@ -182,10 +183,10 @@ TEST_CASE("cases take what they do not say from their kind, variants from their 
   CHECK(variant.pulse_scaling == PulseFit::duration);
   CHECK(variant.impact_velocity_m_s == named("flexion-20").impact_velocity_m_s);
   CHECK(named("lateral-65-rigid").direction == CaseSection::Direction::lateral);
-  // A point that falls through 60 degrees on 65.48 in: v^2 = g L.
+  // A pendulum that falls through 60 degrees on 65.48 in: v^2 = g L.
   CHECK(named("flexion-60").impact_velocity_m_s ==
         Approx(std::sqrt(9.80665 * 65.48 * 0.0254)).epsilon(1e-12));
-  // The value stands once among the parameters, where the study gives it.
+  // Each value occurs once among the parameters, where the study gives it.
   const auto count = std::count_if(study.parameters.begin(), study.parameters.end(), [](auto& p) {
     return p.key == "variant.rigid.body.neck.mass" || p.key == "pendulum.pivot_distance";
   });
@@ -353,7 +354,7 @@ TEST_CASE("supports, interfaces and parts of the neck are those that its study n
                                   "interface.top.position=[\"0 in\", \"0 in\", \"6 in\"]"});
   CHECK(changed.modes.fixed == std::vector<std::string>{"base"});
   CHECK(changed.modes.attached_to == "top");
-  CHECK(changed.neck()->fitted_to.empty());  // to the head's joint that it had
+  CHECK(changed.neck()->fitted_to.empty());  // it was fitted with the head's original joint
 }
 
 TEST_CASE("a neck whose study does not say what it stands on is refused") {

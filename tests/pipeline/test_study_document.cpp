@@ -206,7 +206,7 @@ number = 0
   CHECK_THROWS_WITH(
       document_of(folder, "[part]\nnumber = 1\ncount = 2\n"),
       Contains("study.toml:2:10: part.number: is now called 'count', which is there too"));
-  // At its line, whatever it is called.
+  // The message gives the key's line, whatever its name.
   CHECK_THROWS_WITH(document_of(folder, "[part]\nnumber = 0\n").root().table("part").count("count"),
                     Contains("study.toml:2:10: part.count: expected a whole number of at least 1"));
 }
@@ -281,13 +281,13 @@ TEST_CASE("what nests or includes without end is refused before it takes the sta
   refused("\n[" + repeated("a.", kMany) + "a]", too_deep);
   refused("\nx = " + repeated("{ a = ", kMany), too_deep);
   refused("\nx = " + repeated("[", kMany), too_deep);
-  // The fourth quote belongs to the text; what follows is not in quotes.
+  // The fourth quote belongs to the text; the rest is not quoted.
   for (const std::string text : {R"("""x"""")", R"(""""""")", "'''x''''"})
     refused("\nx = { b = " + text + ", " + repeated("a.", kMany) + "a = 1 }", too_deep);
   CHECK_THROWS_WITH(document_of(folder, "", {repeated("a.", kMany) + "a=1"}),
                     Contains("a key of at most 32 parts"));
   CHECK_THROWS_WITH(document_of(folder, "", {"a=" + repeated("[", kMany)}), Contains("at most 32"));
-  // Dots and brackets in texts and comments nest nothing.
+  // Dots and brackets in texts and comments do not count as nesting.
   CHECK(document_of(folder, "x = \"" + repeated("a.[", 100) + "\"\n# " + repeated("b.[", 100))
             .root()
             .text("x")
@@ -319,7 +319,7 @@ TEST_CASE(
   refused("include = [\"" + std::string(5000, 'x') + "\"]", "File name too long");
   refused(std::string("x = \"a\0b\"", 9), "study.toml:1:");
   refused("x = \"\xff\"", "study.toml:1:");
-  // Escapes make control characters out of sound text.
+  // Escapes produce control characters from valid text.
   refused("\n[part]\nwhat = \"x\\nsystem('touch y')\"",
           "study.toml:3:8: what: expected a text without control characters, found \"x\\n");
   refused("names = [\"a\", \"\\u001b[2J\"]", "found \"\\x1b[2J\"");

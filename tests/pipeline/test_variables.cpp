@@ -38,7 +38,7 @@ StudyDocument document_of(const TemporaryFolder& folder, const std::string& text
   return {folder / "study.toml", settings, kKeys};
 }
 
-/// "value, origin, note" of a parameter; "none" if there is none.
+/// Text "value, origin, note" of a parameter; "none" if there is none.
 std::string parameter(const StudyDocument& document, const std::string& key) {
   for (const flexneck::Parameter& each : document.parameters())
     if (each.key == key)

@@ -100,7 +100,7 @@ TEST_CASE("a neck that was fitted to other figures is shown beside published one
   CHECK_FALSE(is_judged({}));
   CHECK_FALSE(is_judged({"weight", "system frequency"}));
   CHECK_FALSE(is_judged({"static stiffness of the top"}));
-  CHECK_FALSE(is_judged({"bending 4"}));  // which these references have not
+  CHECK_FALSE(is_judged({"bending 4"}));  // these references do not have it
   CHECK(is_judged({"weight", "bending 1"}));
 }
 
@@ -132,7 +132,7 @@ TEST_CASE("a geometry of the user's own is shown beside published figures, not j
   CHECK_FALSE(is_judged("geometry.slits", "\"open\"", Origin::synthetic, "published"));
   CHECK(is_judged("geometry.slits", "\"closed\"", Origin::synthetic, "published"));
   CHECK(is_judged("mesh.refine", "1", Origin::synthetic, "published"));
-  // Against the user's own figures it is.
+  // With the user's own figures it is judged.
   CHECK(is_judged(plate, "0.3 in", Origin::synthetic, "synthetic"));
   CHECK(
       *row(verified(plate, "0.3 in", Origin::synthetic, "published"), "bending 1").error_percent ==
@@ -149,7 +149,7 @@ TEST_CASE("fitted is said beside what the geometry was fitted to, and only there
   CHECK(row(table, "torsion 1").fitted);
   CHECK_FALSE(row(table, "weight").fitted);
   CHECK_FALSE(row(table, "mode order").fitted);
-  // As flexneck fit names them: one by its rank, one by its mode.
+  // Names as flexneck fit writes them: one by its rank, one by its mode.
   study.structure->neck->fitted_to = {"bending 2", "torsion 1", "weight"};
   const VerificationTable some = verify(
       study, body_with({{"lateral bending 1", 10}, {"fore-aft bending 1", 11}, {"torsion 1", 20}}),

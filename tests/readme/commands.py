@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 PROGRAMS = (r"(?:[A-Z_]+=\S+ )*(?:(?:build/)?flexneck(?= [a-z-])|mpirun|parallel|/usr/bin/time|sh|python3|"
             r"cmake|ctest|ccx|git|apt)(?= |$)")
-# Words that stand for the reader's own: MODEL.toml, [RUNS], …; not a command as it stands.
+# Placeholders for the reader's own names: MODEL.toml, [RUNS], …; such a command is not run.
 SYNOPSIS = re.compile(r"\[[A-Z-]|…|\b[A-Z]{3,}\.(?:toml|csv|h5)\b")
 
 

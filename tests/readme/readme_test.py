@@ -21,14 +21,14 @@ WHOLE = "--whole" in sys.argv
 BUILD, SOURCES, *ONLY = [word for word in sys.argv[1:] if word != "--whole"]
 BUILD, SOURCES = Path(BUILD), Path(SOURCES)
 
-# What no test runs, and why. Each has to match some command.
+# Commands that no test runs, with the reason. Each pattern has to match some command.
 LEFT_OUT = {
     r"^sh (pipeline|tests)/run\.sh": "installs packages, builds",
     r"^python3 tests/(reliability|mutation)/": "a campaign of hours",
     r"^cmake ": "builds",
     r"^parallel ": "GNU parallel is no package of ours",
 }
-# What only --whole runs.
+# Commands that only --whole runs.
 SLOW = r"qualif|\bfit (pipeline|six|weight|head_)|fits/|lab-fit|--sensitivity|modes -v --check|modes --check -o"
 COARSE = ["mesh.quadrant=2", "mesh.inner_ring=2", "mesh.outer_ring=1", "mesh.rubber_layers=1",
           "geometry.bolt_patch_radius='0.4 in'"]
@@ -148,7 +148,7 @@ class Session:
 
     def python(self, text, folder):
         self.count += 1
-        # matplotlib is 188 packages: a stand-in checks that what is drawn can be.
+        # matplotlib needs 188 packages: a stand-in checks that the data can be drawn.
         path = f"{BUILD}/python:{Path(__file__).resolve().parent / 'stand_in'}"
         outcome = subprocess.run(["/usr/bin/python3", "-c", text], cwd=folder, stdout=subprocess.PIPE,
                                  stderr=subprocess.STDOUT, text=True, check=False,

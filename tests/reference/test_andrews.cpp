@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Andrews' squeezing mechanism, as in Hairer and Wanner II and the test set for initial value
-// problems: seven planar bodies in three loops. In space its ten pins hold 50 rows on 42
-// coordinates with one freedom, so nine rows are redundant.
+// problems: seven planar bodies in three loops. In space its ten revolute joints have 50 rows for
+// 42 coordinates with one degree of freedom, so nine rows are redundant.
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -42,8 +42,8 @@ constexpr Angles kPublished = {15.81077119629904,   -15.75637105984298, 0.040822
                                -0.5347301163226948, 0.5244099658805304, 0.5347301163226948,
                                1.048080741042263};
 
-/// Origins: K1 at O, K2 at its pin on K1, K3 at B, K4 at its pin on K5, K5 and K7 at A, K6 at its
-/// pin on K7.
+/// The mechanism. Origins: K1 at O, K2 at its joint on K1, K3 at B, K4 at its joint on K5, K5 and
+/// K7 at A, K6 at its joint on K7.
 Model mechanism() {
   const Angles angles = body_angles(kStart);
   const auto turn = [&](int k) {
@@ -125,14 +125,14 @@ TEST_CASE("Andrews' squeezing mechanism is where it must be after 30 ms") {
   CHECK(history.redundant_constraints.size() == 9);
   CHECK(history.statistics.max_position_residual < 1e-14);
 
-  // What acts in the plane is determined, what acts across it is not.
+  // Reactions in the plane are determined, those across it are not.
   for (const JointHistory& joint : history.joints) {
     CAPTURE(joint.name, joint.undetermined);
     CHECK(joint.undetermined.find("force x") == std::string::npos);
     CHECK(joint.undetermined.find("force y") == std::string::npos);
   }
   CHECK(history.joint("E4").undetermined.find("force z") != std::string::npos);
-  // The energy that the drive gives is all there is.
+  // The total energy equals the work of the drive.
   const EnergyHistory& energy = history.energy;
   const Eigen::VectorXd balance = energy.kinetic_J + energy.strain_J - energy.work_J;
   CHECK((balance.array() - balance[0]).abs().maxCoeff() <
@@ -141,8 +141,8 @@ TEST_CASE("Andrews' squeezing mechanism is where it must be after 30 ms") {
 }
 
 TEST_CASE("In-plane reactions of the mechanism are those of a cut") {
-  // All of K2 … K7 outside of the pins at O, B and A: the ground carries the sum of their and K1's
-  // rates of momentum, less the spring.
+  // All bodies K2 … K7 beyond the joints at O, B and A: the ground carries the sum of the rates of
+  // momentum of these and K1, less the spring.
   const SolverOptions solver{.relative_tolerance = 1e-10, .absolute_tolerance = 1e-12};
   Model model = mechanism();
   const std::size_t bodies = model.bodies.size();

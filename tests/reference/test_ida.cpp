@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// SUNDIALS IDA, variable-order BDF of other people's making, on a flexible model whose equations
-// are written down a third time, in the modal coordinates alone.
+// SUNDIALS IDA, an independent variable-order BDF method, on a flexible model whose equations are
+// formulated a third time, in the modal coordinates alone.
 #include <ida/ida.h>
 #include <memory>
 #include <nvector/nvector_serial.h>
@@ -43,7 +43,7 @@ Eigen::Map<VectorXd> values(N_Vector vector) {
   return {N_VGetArrayPointer(vector), N_VGetLength(vector)};
 }
 
-/// Of y = [a; a']: F = [a' - y_2; M a'' - f].
+/// Residual for y = [a; a']: F = [a' - y_2; M a'' - f].
 int residual(double time_s, N_Vector y, N_Vector rate, N_Vector result, void* user) {
   const Eigen::Index m = N_VGetLength(y) / 2;
   const auto terms =
@@ -53,7 +53,7 @@ int residual(double time_s, N_Vector y, N_Vector rate, N_Vector result, void* us
   return 0;
 }
 
-/// Modal coordinates at `end_s` by IDA, from rest.
+/// Modal coordinates at `end_s` by IDA, starting at rest.
 VectorXd by_ida(MinimalModel model, double end_s) {
   const Eigen::Index m = model.neck.mode_count();
   const sundials::Context context;
@@ -95,6 +95,6 @@ TEST_CASE("SUNDIALS IDA takes a braked flexible neck with its head to the same p
                                 kEnd_s);
   const VectorXd found = own.modal[0].coordinates.col(1);
   CHECK(found.norm() > 1e-2);
-  // A BDF run of some thousand steps at 1e-10 each.
+  // The BDF run has some thousand steps at 1e-10 each.
   CHECK((other - found).norm() < 1e-7 * found.norm());
 }

@@ -43,7 +43,7 @@ TEST_CASE("A pendulum released from horizontal has the period of the elliptic in
       simulate(build.model, tight(), {.end_time_s = 2 * kPeriod_s, .interval_s = kPeriod_s / 4});
   REQUIRE(history.time_s.size() == 9);
   const Eigen::Matrix3Xd& end = history.marker("end").position_m;
-  // Gravity lets the end fall: horizontal at +x, down, horizontal at -x, down, and back.
+  // Gravity makes the end fall: horizontal at +x, down, horizontal at -x, down, and back.
   const Vector3d expected[] = {{1, 0, 0}, {0, 0, -1}, {-1, 0, 0}, {0, 0, -1}};
   for (Eigen::Index k = 0; k < 9; ++k) {
     CHECK((end.col(k) - expected[k % 4]).norm() < 1e-9);
@@ -78,7 +78,7 @@ TEST_CASE("A free body flips about its intermediate axis with the period of Jaco
   CHECK(std::abs(body_rate(1)[1]) < kTolerance);
   CHECK(body_rate(2)[1] == Approx(-1).epsilon(kTolerance));
   CHECK((body_rate(4) - start).norm() < kTolerance);
-  // Angular momentum stays in the world.
+  // Angular momentum is constant in the world.
   for (Eigen::Index k = 0; k < 5; ++k) {
     const Vector3d momentum = rotation_at(frame.rotation, k) * moments.cwiseProduct(body_rate(k));
     CHECK((momentum - moments.cwiseProduct(start)).norm() < 1e-9);
@@ -100,7 +100,7 @@ TEST_CASE("The heavy top of Bruels, Cardona and Arnold is where it must be after
   const Vector3d published(-0.15041682, -0.72416559, -0.67302227);
   // Eight decimals are published.
   CHECK((history.marker("cg").position_m.col(2) - published).norm() < 2e-8);
-  // Newton for the whole body, from the kinematic acceleration: reaction = m (a - g).
+  // Newton's law for the whole body, from the kinematic acceleration: reaction = m (a - g).
   const Vector3d expected =
       15 * (history.marker("cg").acceleration_m_s2.col(2) - build.model.gravity_m_s2);
   CHECK((history.joint("ball").force_N.col(2) - expected).norm() < 1e-9 * expected.norm());

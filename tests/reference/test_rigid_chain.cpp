@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rigid chain pin - ball - fixed against four coordinates of its own, without multipliers.
+// The rigid chain pin - ball - fixed, compared with equations in four coordinates without
+// multipliers.
 #include <cmath>
 #include <numbers>
 
@@ -87,7 +88,7 @@ struct Chain {
   Vector3d w = Vector3d::Zero();
 };
 
-/// Kane's equations: each body's inertia force through its partial velocities.
+/// Accelerations by Kane's equations: each body's inertia force through its partial velocities.
 Eigen::Vector4d accelerations(const Chain& chain) {
   static const Composite both = make_composite();
   static const RigidBody arm = make_arm();
@@ -135,7 +136,7 @@ Chain moved(const Chain& chain, const ChainRate& rate, double h) {
   return next;
 }
 
-/// Classical Runge-Kutta.
+/// State after one second by the classical Runge-Kutta method.
 Chain after_one_second(int steps) {
   Chain chain;
   const double h = 1.0 / steps;
@@ -178,7 +179,8 @@ TEST_CASE("Generalised-alpha's error on the rigid chain falls with the tolerance
     const History history = simulate(make_chain(), solver, {.end_time_s = 1, .interval_s = 1});
     return (history.marker("head cg").position_m.col(1) - reference).norm();
   };
-  // Of order 2, so that it goes with the 2/3 power: a factor of 22 from 1e-6 to 1e-8.
+  // The method is of order 2, so the error goes with the power 2/3 of the tolerance: a factor of 22
+  // from 1e-6 to 1e-8.
   const double coarse = error(1e-6, 1e-11);
   CHECK(coarse < 6e-5);
   CHECK(error(1e-8, 1e-11) < coarse / 15);

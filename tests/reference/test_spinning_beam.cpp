@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kStill_Hz = 10;
 
-/// One bending mode along x and one along y, of the same frequency.
+/// A beam with one bending mode along x and one along y, of the same frequency.
 Beam round_beam() {
   Beam beam;
   beam.fore_aft_modes = 1;
@@ -27,8 +27,8 @@ Beam round_beam() {
   return beam;
 }
 
-/// A beam along z, clamped at its root to a hub that is prescribed to spin about `axis`, struck at
-/// its tip along `blow`.
+/// A beam along z, clamped at its root to a hub with a prescribed spin about `axis`, struck at its
+/// tip along `blow`.
 History spinning_beam(const Vector3d& axis, double spin_Hz, const Vector3d& blow) {
   const Beam beam = round_beam();
   const Vector3d rate = 2 * std::numbers::pi * spin_Hz * axis;
@@ -48,7 +48,7 @@ History spinning_beam(const Vector3d& axis, double spin_Hz, const Vector3d& blow
   return simulate(build.model, solver, {.end_time_s = 2.0, .interval_s = 1e-3});
 }
 
-/// Over all cycles of the record.
+/// Mean frequency over all cycles of the record.
 double mean_frequency_Hz(const History& history, const Eigen::VectorXd& signal) {
   const FreeOscillation found = free_oscillation(history.time_s, signal, 0, 0.01);
   const auto& crossings = found.crossings_s;
@@ -72,8 +72,8 @@ TEST_CASE("Spin softens a linear body in its plane by the square of the spin, an
 
 TEST_CASE("A round beam that spins about its own axis swings in a plane fixed in the world") {
   // In the spinning frame z = a_x + i a_y obeys z'' + 2 i W z' + (w^2 - W^2) z = 0, so that exp(i W
-  // t) z is an oscillation of frequency w: the Coriolis and centrifugal terms cancel what turning
-  // makes.
+  // t) z is an oscillation of frequency w: the Coriolis and centrifugal terms cancel the effect of
+  // the rotation.
   const double spin_Hz = GENERATE(2.0, 15.0);
   const History history = spinning_beam(Vector3d::UnitZ(), spin_Hz, {1, 0, 0});
   const Eigen::VectorXd along = history.marker("tip").position_m.row(0);

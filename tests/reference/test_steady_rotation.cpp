@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Small motions about steady rotation: published frequencies of a rotating beam, and rotors in
-// closed form. Rates and frequencies in rad/s are those seen from the hub.
+// closed form. Rates and frequencies in rad/s are relative to the hub.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,7 +26,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Differences leave 1e-10 of the largest stiffness.
+/// Tolerance: finite differences leave 1e-10 of the largest stiffness.
 constexpr double kTolerance = 1e-7;
 
 PrescribedBody turning(const Vector3d& axis, double rate_rad_s) {
@@ -55,7 +55,7 @@ void check_frequencies(const Model& model, std::vector<double> expected) {
   }
 }
 
-/// A clamped beam along z on a hub that turns about y: bending along y is flap, along x lag.
+/// A clamped beam along z on a hub that rotates about y: bending along y is flap, along x lag.
 Model rotating_beam(const Beam& beam, double rate_rad_s) {
   ModelBuilder build;
   DeformableBody blade = deformable(make_beam_body(beam), 0);
@@ -76,7 +76,7 @@ constexpr double kTwist = 5;
 constexpr double kDiameter_kg_m2 = 0.01;
 constexpr double kPolar_kg_m2 = 0.018;
 
-/// A disc on a massless shaft that turns about z with the hub.
+/// A disc on a massless shaft that rotates about z with the hub.
 struct Rotor {
   ModelBuilder build;
   std::size_t ground, hub, disc;
@@ -100,7 +100,7 @@ Rotor rotor(double rate_rad_s, double damping = 0) {
   return made;
 }
 
-/// Flap of a disc whose whirl in space is w obeys I w^2 - Ip rate w = k: backward and forward.
+/// Flap of a disc whose whirl in space, w, obeys I w^2 - Ip rate w = k: backward and forward.
 std::array<double, 2> whirls(double rate) {
   const double drag = kPolar_kg_m2 * rate / (2 * kDiameter_kg_m2);
   const double root = std::sqrt(drag * drag + kTilt / kDiameter_kg_m2);
@@ -128,8 +128,8 @@ TEST_CASE("flap and lag of a rotating beam are the published ones") {
   Beam beam;
   beam.fore_aft_Hz = beam.lateral_Hz = 10;
   const double unit = 2 * std::numbers::pi * 10 / (kClampedFree[0] * kClampedFree[0]);
-  // Ritz's method with the shapes of the beam at rest errs upwards: with one by Southwell's
-  // coefficient, with four by 1e-3 at rate 12, and as its third power below.
+  // Ritz's method with the shapes of the beam at rest overestimates: with one shape as Southwell's
+  // coefficient, with four by 1e-3 at rate 12, and with its third power below.
   beam.fore_aft_modes = beam.lateral_modes = 1;
   const std::vector<double> southwell = angular_frequencies(rotating_beam(beam, rate * unit));
   CHECK(southwell[1] / unit ==
@@ -198,7 +198,7 @@ TEST_CASE("damping that turns with the rotor makes it unstable above its critica
     CHECK(mode->damping_ratio == Approx(-lambda.real() / std::abs(lambda)).margin(1e-6));
     CHECK(mode->growth_rate_1_s == Approx(std::max(0.0, lambda.real())).margin(1e-5));
   }
-  // Its outer damping holds it to sqrt((k + kb) / m) (1 + outer / inner), 26.9 rad/s.
+  // Its outer damping stabilises it up to sqrt((k + kb) / m) (1 + outer / inner), 26.9 rad/s.
   const bool is_unstable = std::any_of(found.begin(), found.end(),
                                        [](const SystemMode& mode) { return mode.is_unstable(); });
   CHECK(is_unstable == (rate > 30));
@@ -208,7 +208,7 @@ TEST_CASE("a Campbell diagram follows each whirl through crossings and the criti
   const std::vector<double> rates = {0, 4, 8, 16, 24, 32, 40};
   const CampbellDiagram diagram = campbell_diagram(rotor(7).build.model, rates);
   REQUIRE(diagram.modes.size() == 6);
-  // Each closed form is one of the rows, all along.
+  // Each closed form is one of the rows, at all rates.
   const double k = std::sqrt(kStiffness / kMass);
   std::vector<std::vector<double>> expected(6);
   for (const double rate : rates) {
@@ -245,8 +245,8 @@ TEST_CASE("what makes steady rotation periodic is refused by name") {
   made = rotor(10);
   add_bearing(made, 100, 100.001, 0);
   refused(made.build.model, "not the same all round the axis");
-  // Four springs are the same all round to the first order; three of them are not. So it is in a
-  // watch and in a wind turbine.
+  // Four springs are isotropic to the first order; three of them are not. This holds for the size
+  // of a watch and of a wind turbine.
   for (const double size : {2e-3, 1.0, 1e3}) {
     CAPTURE(size);
     made = rotor(10);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A beam that stiffens as it spins and softens as it is pressed, by closed forms (equations.md
-// section 3a). The beam's geometric stiffness is that of an inextensible one.
+// A beam that stiffens by spin and softens under compression, compared with closed forms
+// (equations.md section 3a). The beam's geometric stiffness is that of an inextensible one.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -29,7 +29,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Inertia of the hub over that of the beam about the hub: its motion is given, to this.
+/// Ratio of the hub's inertia to that of the beam about the hub: to this accuracy its motion is
+/// prescribed.
 constexpr double kHeaviness = 1e9;
 
 DeformableBody elastic(const Beam& beam, bool stiffens) {
@@ -64,8 +65,8 @@ SpunBeam spun_beam(const Beam& beam, bool stiffens, double spin_rad_s,
   return spun;
 }
 
-/// int (L^2 - z^2) / 2 w_j' w_l' over the masses of mass-normalised bending shapes, by its own
-/// quadrature: Southwell's coefficient where j is l.
+/// Integrals int (L^2 - z^2) / 2 w_j' w_l' over the masses of mass-normalised bending shapes, by an
+/// independent quadrature: Southwell's coefficient if j is l.
 MatrixXd southwell(std::size_t count) {
   const auto [points, weights] = gauss_rule(60);
   const auto n = static_cast<Index>(count);
@@ -79,7 +80,7 @@ MatrixXd southwell(std::size_t count) {
   return sum;
 }
 
-/// Over all cycles of the record.
+/// Mean frequency over all cycles of the record.
 double mean_frequency_Hz(const History& history, Index mode) {
   const VectorXd signal = history.modal[0].coordinates.row(mode).transpose();
   const FreeOscillation found = free_oscillation(history.time_s, signal, 0, 0.01);
@@ -120,8 +121,8 @@ struct SpinUp {
   }
 };
 
-/// a'' + (omega^2 + spin^2 (K - 1)) a = -spin' int z w, the textbook's equation of the spinning
-/// beam, by Runge and Kutta's method; columns every `interval_s`.
+/// Solution of a'' + (omega^2 + spin^2 (K - 1)) a = -spin' int z w, the textbook's equation of the
+/// spinning beam, by Runge and Kutta's method; one column every `interval_s`.
 MatrixXd textbook_spin_up(const SpinUp& law, double end_s, double interval_s) {
   const auto n = static_cast<Index>(law.modes);
   const Beam beam = law.beam();
@@ -165,7 +166,7 @@ MatrixXd textbook_spin_up(const SpinUp& law, double end_s, double interval_s) {
   return columns;
 }
 
-/// The hub is prescribed by the torque that its inertia asks for, as a table.
+/// Run in which the hub is driven by the torque that its inertia requires, as a table.
 History spin_up(const SpinUp& law, bool stiffens, const OutputOptions& output) {
   SpunBeam spun = spun_beam(law.beam(), stiffens, 0, 1e6);
   std::vector<double> times;
@@ -208,7 +209,7 @@ double pressed_column_square(double p) {
   return low;
 }
 
-/// A column with a dead load on its top.
+/// A column with a dead load at its top.
 Model column(int modes, bool stiffens, double load_N) {
   Beam beam;
   beam.fore_aft_modes = modes;
@@ -242,8 +243,8 @@ TEST_CASE("a spun beam stiffens by Southwell's coefficient across its plane, by 
   const History history =
       simulate(spun.build.model, solver_of(1e-10, 1e-13), {.end_time_s = 2, .interval_s = 1e-3});
   REQUIRE(history.modal[0].modes[0] == "fore-aft bending 1");
-  // The hub gives way by 1 / kHeaviness; crossings are interpolated over 1 ms of some tens of
-  // cycles, which errs by less than 2e-6.
+  // The hub moves by 1 / kHeaviness; crossings are interpolated over 1 ms of some tens of cycles,
+  // an error of less than 2e-6.
   CHECK(mean_frequency_Hz(history, 0) ==
         Approx(std::sqrt(100 + (phi - 1) * spin_Hz * spin_Hz)).epsilon(4e-6));
   CHECK(mean_frequency_Hz(history, 1) ==
@@ -258,12 +259,12 @@ TEST_CASE(
   const MatrixXd expected = textbook_spin_up(law, output.end_time_s, output.interval_s);
   const MatrixXd& found = history.modal[0].coordinates;
   REQUIRE(found.cols() == expected.cols());
-  // The beam's own second order enters only through the hub, which gives way by 1e-6; the torque's
-  // table errs by (5 ms)^2 / 8 of its curvature, 5e-7 of its largest value.
+  // The beam's own second order enters only through the hub, which moves by 1e-6; the torque's
+  // table has an error of (5 ms)^2 / 8 of its curvature, 5e-7 of its largest value.
   CHECK((found - expected).cwiseAbs().maxCoeff() < 1e-5 * expected.cwiseAbs().maxCoeff());
   const double tip_m = 2 / std::sqrt(law.beam().mass_kg) * expected.row(0).cwiseAbs().maxCoeff();
   CHECK(tip_m > 0.5);  // of 8 m
-  // Once the spin is steady it only swings about the radial line.
+  // Once the spin is steady it only oscillates about the radial line.
   CHECK(found.rightCols(50).cwiseAbs().maxCoeff() < 0.02 * found.cwiseAbs().maxCoeff());
   // The first mode is slower than the spin: a linear body has a negative stiffness and diverges.
   try {
@@ -298,7 +299,7 @@ TEST_CASE(
   for (const double share : {-0.5, 0.3, 0.8}) {
     CAPTURE(share);
     const double exact = unit * pressed_column_square(share * euler_N * L * L / EI);
-    // What four modes lack of the shape: 1e-3 of Euler's load.
+    // Error of four modes in the shape: 1e-3 of Euler's load.
     CHECK(first_square(column(kModes, true, share * euler_N)) ==
           Approx(exact).margin(1e-3 * std::abs(share) * omega * omega));
     CHECK(first_square(column(kModes, false, share * euler_N)) ==

@@ -27,11 +27,13 @@ constexpr std::array<std::string_view, kKinds> kNames = {
     "rename", "link",  "lock",   "folder", "memory", "memory512", "memory8k", "memory128k"};
 constexpr std::array<std::size_t, 4> kMemoryBounds = {0, 512, 8192, 131072};
 
-/// Shared with the runner and with the processes that this one starts, and there whatever ends it.
+/// State shared with the runner and with the processes that this one starts; it persists however
+/// the process ends.
 struct Note {
   std::array<std::atomic<std::uint64_t>, kKinds> counts;
   std::atomic<std::uint64_t> reached;  ///< faults so far
-  std::array<char, 2048> stack;        ///< of the last: objects and offsets within them, one a line
+  std::array<char, 2048> stack;        ///< stack of the last one: objects and offsets within them,
+                                       ///< one per line
 };
 
 struct Plan {
@@ -52,7 +54,7 @@ std::string_view variable(const char* name) {
 
 std::uint64_t number(const char* name) { return std::strtoull(variable(name).data(), nullptr, 10); }
 
-/// Before any other library of the program is set up.
+/// Reads the plan before any other library of the program is set up.
 __attribute__((constructor)) void read_plan() {
   const int file = static_cast<int>(
       syscall(SYS_openat, AT_FDCWD, variable("FAULT_NOTE").data(), O_RDWR | O_CLOEXEC));
@@ -67,11 +69,11 @@ __attribute__((constructor)) void read_plan() {
   plan.error = static_cast<int>(number("FAULT_ERROR"));
   plan.lasts = number("FAULT_LASTS") == 1;
   std::array<void*, 2> frames{};
-  backtrace(frames.data(), frames.size());  // takes memory the first time
+  backtrace(frames.data(), frames.size());  // allocates memory the first time
   plan.note = static_cast<Note*>(page);
 }
 
-/// Where the last fault happens: what a library does with it is not ours to mend.
+/// Notes the stack of the last fault: a library's handling of it is not the program's.
 void note_stack() {
   std::array<void*, 24> frames{};
   const auto count = static_cast<std::size_t>(backtrace(frames.data(), frames.size()));
@@ -91,7 +93,8 @@ void note_stack() {
   }
 }
 
-/// Counts a call. @return whether it is to fail
+/// Counts a call.
+/// @return true if it must fail
 bool is_due(std::size_t kind) {
   const std::uint64_t before = plan.note->counts[kind].fetch_add(1);
   if (kind != plan.kind || plan.at == 0) return false;
@@ -103,7 +106,7 @@ bool is_due(std::size_t kind) {
   return is_it;
 }
 
-/// Neither a path of the system ("/proc/self/…") nor one elsewhere.
+/// False for a path of the system ("/proc/self/…") and for one elsewhere.
 bool is_below_folder(const char* path) {
   if (path == nullptr) return false;
   std::array<char, PATH_MAX> current{};

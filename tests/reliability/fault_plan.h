@@ -4,10 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Which calls of the system fail, as told by variables: FAULT_NOTE, a file of one page of zeros
-/// for what happens; FAULT_FOLDER, below which files count; FAULT_KIND, a name of fault_plan.cpp;
-/// FAULT_AT, which call of that kind, 0 for none; FAULT_ERROR, the number of the system's error, 0
-/// for a transfer of fewer bytes; FAULT_LASTS, 1 for all calls from there on.
+/// Plan of the system calls that fail, given by environment variables: FAULT_NOTE, a file of one
+/// page of zeros for the record; FAULT_FOLDER, below which files count; FAULT_KIND, a name in
+/// fault_plan.cpp; FAULT_AT, the number of the call of that kind, 0 for none; FAULT_ERROR, the
+/// system's error number, 0 for a transfer of fewer bytes; FAULT_LASTS, 1 for all calls from there
+/// on.
 namespace fault {
 
 enum Kind : std::uint8_t {
@@ -30,10 +31,10 @@ enum Kind : std::uint8_t {
   kKinds
 };
 
-/// Counts memory from here on.
+/// Starts the counting of allocations.
 void begin_main();
 
-/// Whether this call fails, with errno set; 0 there for a transfer of fewer bytes.
+/// Returns whether this call fails, with errno set; errno 0 stands for a transfer of fewer bytes.
 bool fails(Kind kind, const char* path);
 bool fails(Kind kind, int file);
 bool memory_fails(std::size_t size);

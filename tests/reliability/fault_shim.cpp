@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stands before the C library in a program (LD_PRELOAD) and has some of its calls fail.
+// Intercepts calls of the C library in a program (LD_PRELOAD) and makes some of them fail.
 #include <cerrno>
 #include <cstdarg>
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 using namespace fault;
 
-// Of the C library, under names of our own.
+// Functions of the C library under other names.
 extern "C" {
 void* libc_malloc(std::size_t size) __asm__("__libc_malloc");
 void* libc_calloc(std::size_t count, std::size_t size) __asm__("__libc_calloc");
@@ -85,7 +85,7 @@ int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
   return *block == nullptr ? ENOMEM : 0;
 }
 
-// A mode that is not there is not used.
+// If there is no mode argument, the value read for it is not used.
 #define FLAGS_AND_MODE                                           \
   va_list rest;                                                  \
   va_start(rest, flags);                                         \
@@ -128,7 +128,7 @@ ssize_t pread(int file, void* bytes, std::size_t size, off_t place) {
     return syscall(SYS_pread64, file, bytes, count, place);
   });
 }
-/// The descriptor is gone whatever is told of it.
+/// Closes the descriptor even if an error is reported.
 int close(int file) {
   const bool is_it = fails(kClose, file);
   const int error = errno;

@@ -14,7 +14,8 @@ PAGE = 4096
 KINDS = ["open", "write", "pwrite", "read", "pread", "close", "sync", "truncate", "rename", "link",
          "lock", "folder", "memory", "memory512", "memory8k", "memory128k"]
 SHORT = 0
-# What a call of each kind may say. A call that is interrupted or does less has to be gone on with.
+# Errors that a call of each kind may report. A call that is interrupted or does less has to be
+# continued.
 TRANSFER = [errno.ENOSPC, errno.EIO, errno.EINTR, SHORT]
 ERRORS = {"write": TRANSFER, "pwrite": TRANSFER, "read": [errno.EIO, errno.EINTR, SHORT],
           "pread": [errno.EIO, errno.EINTR, SHORT], "open": [errno.ENOSPC, errno.EIO, errno.EMFILE],
@@ -23,7 +24,7 @@ ERRORS = {"write": TRANSFER, "pwrite": TRANSFER, "read": [errno.EIO, errno.EINTR
           "rename": [errno.ENOSPC, errno.EIO], "link": [errno.ENOSPC, errno.EIO],
           "folder": [errno.ENOSPC, errno.EIO]}
 OURS = ("flexneck", "exe", "")  # as the stack names the program and its child
-# How often a kind is drawn beside others.
+# Relative frequencies with which kinds are drawn.
 WEIGHTS = {"pwrite": 4, "close": 2, "sync": 2, "rename": 2, "link": 2, "open": 3, "memory": 5,
            "memory512": 3, "memory8k": 2}
 
@@ -69,7 +70,7 @@ def draw(generator, counts, wanted):
     kinds = [kind for kind in KINDS if counts[kind] and kind.startswith(wanted)]
     kind = generator.choices(kinds, [WEIGHTS.get(kind, 1) for kind in kinds])[0]
     number = counts[kind]
-    # Early calls as often as late ones of the thousands that take memory.
+    # Early calls are drawn as often as late ones among the thousands that allocate memory.
     place = int(number ** generator.random()) if kind == "memory" else generator.randint(1, number)
     error = generator.choice(ERRORS.get(kind, [errno.ENOMEM]))
     lasts = error not in (errno.EINTR, SHORT) and generator.random() < 0.3
@@ -126,7 +127,7 @@ def fault_of(scenario, end, found, plan, reached, library):
         wrong = scenarios.differences(found, scenarios.either(scenario))
     else:
         wrong = scenarios.differences(found, scenarios.exactly(scenario.after))
-    if plan["kind"] == "open":  # what a folder holds cannot be found where it cannot be opened
+    if plan["kind"] == "open":  # the content of a folder cannot be found if it cannot be opened
         wrong = [name for name in wrong if not name.startswith("tmp/flexneck-")]
     return f"exit {end.status} and " + ", ".join(wrong) if wrong else ""
 

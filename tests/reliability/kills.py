@@ -22,14 +22,14 @@ def left_behind(scenario, found, by):
     wrong = scenarios.differences(found, expected)
     if by != signal.SIGKILL:
         return wrong
-    # Nobody is told of this one: its lock and its temporary folder stay, whose lock the system ends, and the
-    # hidden one of an export to a folder.
+    # SIGKILL cannot be handled: the lock and the temporary folder stay, whose lock the system
+    # releases, and the hidden folder of an export.
     return [name for name in wrong
             if name != scenarios.LOCK and not name.startswith(("tmp/flexneck-", "out/.flexneck-"))]
 
 
 def fault_of(scenario, by, end, found, again, mended):
-    # METIS takes SIGTERM for an error of its own and goes on to say so.
+    # METIS reports SIGTERM as an error of its own and continues.
     is_of_metis = by == signal.SIGTERM and end.status == 3 and "METIS" in end.text
     if end.status not in (0, 1, -by) and not is_of_metis:
         return f"status {end.status}"

@@ -22,7 +22,7 @@ import sound_files
 MEMORY = 1 << 30  # and twice the file
 SECONDS = 20  # of the processor; on the clock CLOCK times as much, for a machine with other work
 CLOCK = 30
-# How the death of a child is told.
+# Texts that report the death of a child.
 CONTAINED = re.compile(r"crashes on it|is not done with it|wants more than|gives up on it|was killed")
 
 

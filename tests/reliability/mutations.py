@@ -11,7 +11,7 @@ WORDS = 'aA0_-."\'[]{}()=#*$%&/\\,;:\n\t \x00\x1b\xff'
 FIELDS = [0, 1, 2, 3, 7, 8, 0x7F, 0x80, 0xFF, 0x100, 0xFFFF, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF,
           1 << 40, (1 << 63) - 1, 1 << 63, (1 << 64) - 1]
 DOUBLES = [float("nan"), float("inf"), -float("inf"), 0.0, -0.0, -1.0, 1e300, -1e300, 5e-324]
-# Where the structure of an HDF5 file stands.
+# Marks of the structures of an HDF5 file.
 SIGNATURES = rb"\x89HDF|OHDR|OCHK|TREE|SNOD|HEAP|GCOL|FRHP|FHDB|FHIB|BTHD|BTLF|FADB|FAHD|EAHD|FSHD"
 NUMBER = re.compile(rb"[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?")
 

@@ -27,7 +27,7 @@ def _orders(program, first, second, base):
         work = os.path.join(base, f"{first.name}-{second.name}-{name}")
         scenarios.copy(first, work)
         ends = [scenarios.run(program, command.arguments, work) for command in commands]
-        # One may undo what the other needs; then so it must be told.
+        # One run may undo a requirement of the other; it must then report this.
         results[name] = first.hashes(work) if all(end.status in (0, 1) for end in ends) else None
     return results
 

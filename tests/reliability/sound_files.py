@@ -139,7 +139,7 @@ def _make_bar(program, folder, script, part, held, tip):
     _write(folder, "maker.geo", script)
     study = '[geometry]\nscript = "maker.geo"\n' + MATERIAL.format(part=part, held=held, tip=tip)
     _write(folder, "maker.toml", study)
-    # What the script saves counts; its own mesh need not be sound.
+    # Only the file that the script saves counts; the script's own mesh need not be sound.
     subprocess.run([program, "mesh", "-q", "maker.toml", "-o", "made"], cwd=folder,
                    capture_output=True, check=False)
 

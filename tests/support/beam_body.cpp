@@ -23,7 +23,7 @@ struct BeamMode {
   Eigen::Matrix3Xd shape;
   Eigen::Vector3d top_translation;
   Eigen::Vector3d top_rotation;
-  std::size_t number = 0;                           ///< of bending along `along`
+  std::size_t number = 0;                           ///< number of the bending mode along `along`
   Eigen::Vector3d along = Eigen::Vector3d::Zero();  ///< zero for twist
 };
 
@@ -31,7 +31,7 @@ std::vector<BeamMode> beam_modes(const Beam& beam, const Eigen::Matrix3Xd& point
   std::vector<BeamMode> modes;
   const double unit = 1 / std::sqrt(beam.mass_kg);
   const double length = beam.length_m;
-  // Bending along x turns sections about +y, bending along y about -x.
+  // Bending along x rotates sections about +y, bending along y about -x.
   const auto add_bending = [&](const char* name, double first_Hz, int count,
                                const Eigen::Vector3d& along, const Eigen::Vector3d& about) {
     for (std::size_t n = 0; n < static_cast<std::size_t>(count); ++n) {
@@ -74,8 +74,8 @@ std::vector<BeamMode> beam_modes(const Beam& beam, const Eigen::Matrix3Xd& point
   return modes;
 }
 
-/// By how much bending in two modes at once draws a section at z of an inextensible beam towards
-/// the root: int_0^z w_j' w_l' dz for each pair of modes.
+/// Shortening of an inextensible beam by bending in two modes at once, up to a section at z:
+/// int_0^z w_j' w_l' dz for each pair of modes.
 Eigen::MatrixXd foreshortening(const Beam& beam, const std::vector<BeamMode>& modes, double z) {
   static const auto rule = gauss_rule(40);
   const auto count = static_cast<Eigen::Index>(modes.size());
@@ -93,7 +93,7 @@ Eigen::MatrixXd foreshortening(const Beam& beam, const std::vector<BeamMode>& mo
   return sum;
 }
 
-/// Of bending alone: twist and twisting moments have no part in it.
+/// Geometric stiffness of bending only: twist and twisting moments do not contribute.
 fe_modal::GeometricStiffness beam_stiffness(const Beam& beam, const std::vector<BeamMode>& modes,
                                             const Eigen::VectorXd& masses,
                                             const Eigen::Matrix3Xd& points) {

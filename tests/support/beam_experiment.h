@@ -11,12 +11,13 @@
 
 namespace flexneck::testing {
 
-/// The built-in study with the modes of the beam that stands in for the neck.
+/// The built-in study with the modes of a beam in place of the neck.
 struct BeamExperiment {
   pipeline::Study study;
   fe_modal::ModalBody body = make_beam_body(Beam());
 
-  /// @param settings  of the study, besides; the neck has all modes of the beam unless they say so
+  /// @param settings  further settings of the study; the neck has all modes of the beam unless they
+  /// differ
   explicit BeamExperiment(std::vector<std::string> settings = {}) {
     settings.insert(settings.begin(), R"(body.neck.modes=["all"])");
     study = pipeline::read_study(pipeline::built_in_study(), settings);

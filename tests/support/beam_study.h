@@ -7,11 +7,11 @@
 
 namespace flexneck::testing {
 
-/// A study that takes milliseconds: a bar of eight elements in place of the neck, with a head on
-/// top, in a pendulum for a quarter of a second ("flexion", and "far" with a stronger pulse) and in
-/// the static tester ("pull"). beam.inp lies beside it.
-/// @param more  at the end of the file
-/// @return the study
+/// Writes a study that takes milliseconds: a bar of eight elements in place of the neck, with a
+/// head on top, in a pendulum for a quarter of a second ("flexion", and "far" with a stronger
+/// pulse) and in the static tester ("pull"). beam.inp lies beside it.
+/// @param more  text at the end of the file
+/// @return path of the study
 inline std::filesystem::path write_beam_study(const std::filesystem::path& folder,
                                               const std::string& more = "") {
   constexpr int kElements = 8;

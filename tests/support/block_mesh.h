@@ -15,7 +15,7 @@
 
 namespace flexneck::testing {
 
-/// A slice of a structured block: so many layers of elements in z, of one material.
+/// A slice of a structured block: a number of layers of elements in z, of one material.
 struct Slice {
   std::string part;
   int layers = 1;
@@ -29,9 +29,9 @@ struct BlockMesh {
   std::vector<Slice> slices;  ///< from w = 0 to 1, all layers equally thick in w
   /// Position of the grid point (u, v, w).
   std::function<Eigen::Vector3d(const Eigen::Vector3d&)> position;
-  bool closed_in_y = false;  ///< v = 1 is glued to v = 0: a ring
+  bool closed_in_y = false;  ///< v = 1 is joined to v = 0: a ring
 
-  /// Face and node sets "bottom" and "top" lie at w = 0 and 1.
+  /// Makes the mesh. Face and node sets "bottom" and "top" lie at w = 0 and 1.
   mesher::Mesh make() const;
 
  private:

@@ -12,7 +12,8 @@
 
 namespace flexneck::testing {
 
-/// Frequencies in Hz from what CalculiX printed, the file .dat; seven digits. Empty if it has none.
+/// Frequencies in Hz from CalculiX's printed results, the file .dat; seven digits. Empty if it has
+/// none.
 inline std::vector<double> read_calculix_frequencies(const std::filesystem::path& printed) {
   std::ifstream file(printed);
   std::vector<double> frequencies;
@@ -30,7 +31,7 @@ inline std::vector<double> read_calculix_frequencies(const std::filesystem::path
   return frequencies;
 }
 
-/// Those that CalculiX (package calculix-ccx) finds for a deck.
+/// Frequencies in Hz that CalculiX (package calculix-ccx) computes for a deck.
 inline std::vector<double> calculix_frequencies(const std::filesystem::path& deck) {
   const std::string job = deck.stem().string();
   const CommandOutcome outcome =

@@ -17,7 +17,7 @@ except ImportError as error:
     print(error)
     sys.exit(77)
 
-# Kinds that the types of cells of meshio 7 lack.
+# Element kinds that meshio 7 has no cell type for.
 UNKNOWN_TO_MESHIO = {"prism15", "pyramid13", "pyramid14"}
 # Corners of tetrahedra that fill a cell with flat sides, by its type.
 HEXAHEDRON = [(0, 1, 3, 4), (1, 2, 3, 6), (1, 4, 5, 6), (3, 4, 6, 7), (1, 3, 4, 6)]

@@ -3,7 +3,7 @@
 
 namespace flexneck::testing {
 
-/// Arguments of the coarsest neck: a second instead of ten.
+/// Arguments for the coarsest neck, which takes one second instead of ten.
 inline constexpr const char* kCoarseNeck =
     " --set mesh.quadrant=2 --set mesh.inner_ring=2 --set mesh.outer_ring=1"
     " --set mesh.rubber_layers=1 --set geometry.bolt_patch_radius='0.4 in'";

@@ -12,8 +12,8 @@
 
 namespace flexneck::testing {
 
-/// Of a block of 27-node hexahedra the lower sides of the elements all of whose nodes lie where it
-/// is asked.
+/// Lower facets of the elements of a block of 27-node hexahedra whose nodes there all satisfy a
+/// condition.
 inline mesher::FaceSet crack_faces(const mesher::Mesh& mesh, const std::string& name,
                                    const std::function<bool(const Eigen::Vector3d&)>& is_in_crack) {
   mesher::FaceBlock faces;

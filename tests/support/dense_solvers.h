@@ -3,36 +3,36 @@
 
 #include <Eigen/Core>
 
-/// Decompositions by Eigen as an independent truth, in one place: each file that compiles one of
-/// its own takes some ten seconds longer.
+/// Decompositions by Eigen as an independent reference, in one place: each file that instantiates
+/// one takes some ten seconds longer to compile.
 namespace flexneck::testing {
 
 struct DensePairs {
   Eigen::VectorXd values;   ///< ascending
-  Eigen::MatrixXd vectors;  ///< of unit mass
+  Eigen::MatrixXd vectors;  ///< with unit modal mass
 };
 
-/// K x = lambda M x
+/// Solves K x = lambda M x.
 DensePairs dense_pairs(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
-/// The lowest eigenvalues of K x = lambda M x, ascending, as reciprocals of the largest mu of
-/// M x = mu K x with a positive definite K. dense_pairs() has rounding errors in proportion to the
-/// highest lambda, which are large beside the lowest where metal is bonded to rubber.
+/// The lowest eigenvalues of K x = lambda M x, ascending, as reciprocals of the largest mu of M x =
+/// mu K x with a positive definite K. dense_pairs() has rounding errors proportional to the highest
+/// lambda, which are large compared with the lowest if metal is bonded to rubber.
 Eigen::VectorXd lowest_values(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass,
                               Eigen::Index count);
-/// Ascending, of a symmetric matrix.
+/// Eigenvalues of a symmetric matrix, ascending.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
-/// Of any square matrix.
+/// Eigenvalues of any square matrix.
 Eigen::VectorXcd complex_eigenvalues(const Eigen::MatrixXd& matrix);
 struct ComplexPairs {
   Eigen::VectorXcd values;
   Eigen::MatrixXcd vectors;
-  Eigen::MatrixXcd inverse;  ///< of the vectors
+  Eigen::MatrixXcd inverse;  ///< inverse of the matrix of eigenvectors
 };
-/// A x = lambda x of a matrix that has as many vectors as columns.
+/// Solves A x = lambda x for a matrix with as many independent eigenvectors as columns.
 ComplexPairs complex_pairs(const Eigen::MatrixXd& matrix);
-/// A^-1 B with a symmetric A.
+/// Returns A^-1 B with a symmetric A.
 Eigen::MatrixXd symmetric_solution(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
-/// The columns span all x with A x = 0.
+/// Basis of the null space, all x with A x = 0, in columns.
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& a);
 
 }  // namespace flexneck::testing

@@ -7,7 +7,7 @@
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/mesh.h"
 
-/// What tests and benchmarks of elements go through.
+/// Element kinds and formulations that tests and benchmarks of elements loop over.
 namespace flexneck::fe_modal {
 
 inline const mesher::Material kSteel{"steel", 2.1e11, 0.3, 7850};
@@ -22,7 +22,7 @@ inline constexpr std::array kVolumes = {
     mesher::ElementKind::tet4,      mesher::ElementKind::tet10,    mesher::ElementKind::pyramid5,
     mesher::ElementKind::pyramid13, mesher::ElementKind::pyramid14};
 
-/// Whether the kind has an element of this formulation.
+/// Returns whether the kind has an element of this formulation.
 inline bool offered(mesher::ElementKind kind, Formulation formulation) {
   try {
     static_cast<void>(element_scheme(kind, formulation));

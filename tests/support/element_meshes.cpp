@@ -5,12 +5,12 @@ namespace flexneck::testing {
 
 namespace {
 
-/// Pyramids on the three sides that do not meet in corner 6, their apex.
+/// Pyramids on the three facets that do not meet in corner 6, which is their apex.
 const std::vector<std::vector<std::size_t>> kPyramids = {
     {0, 1, 2, 3, 6}, {0, 4, 5, 1, 6}, {0, 3, 7, 4, 6}};
 
-/// The same with their apex in another corner: where the reflection that takes 6 there changes the
-/// orientation, bases are gone round the other way.
+/// Pyramids with their apex in another corner: if the reflection that maps 6 to it changes the
+/// orientation, their bases are ordered the other way round.
 std::vector<std::vector<std::size_t>> pyramids_with_apex(std::size_t apex) {
   const auto hex = mesher::reference_nodes(mesher::ElementKind::hex8);
   auto pieces = kPyramids;
@@ -25,8 +25,9 @@ std::vector<std::vector<std::size_t>> pyramids_with_apex(std::size_t apex) {
   return pieces;
 }
 
-/// Gives each hexahedron of a full box, taken layer by layer, an apex for its pyramids, so that
-/// neighbours cut the side between them in the same way: one that has it already, or corner 6.
+/// Chooses the apex of the pyramids of each hexahedron of a full box, taken layer by layer, so that
+/// neighbours divide the facet between them in the same way: a corner that is one already, or
+/// corner 6.
 std::size_t choose_apex(std::span<const std::int32_t> nodes, std::set<std::int32_t>& apexes) {
   for (std::size_t corner = 0; corner < 8; ++corner)
     if (apexes.contains(nodes[corner])) return corner;
@@ -34,13 +35,14 @@ std::size_t choose_apex(std::span<const std::int32_t> nodes, std::set<std::int32
   return 6;
 }
 
-/// x -> origin + linear x
+/// Affine map x -> origin + linear x.
 struct ReferenceMap {
   Eigen::Vector3d origin;
   Eigen::Matrix3d linear;
 };
 
-/// The reference element of a shape onto a piece with these corners, a parallelepiped's.
+/// Map of the reference element of a shape onto a piece with these corners, those of a
+/// parallelepiped.
 ReferenceMap map_of_piece(mesher::ReferenceShape shape,
                           const std::function<Eigen::Vector3d(std::size_t)>& corner) {
   const auto edge = [&](std::size_t k) -> Eigen::Vector3d { return corner(k) - corner(0); };

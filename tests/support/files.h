@@ -10,7 +10,7 @@
 
 namespace flexneck::testing {
 
-/// Empty if there is no such file.
+/// Content of a file; empty if there is no such file.
 inline std::string bytes_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};

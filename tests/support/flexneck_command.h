@@ -17,7 +17,7 @@ inline CommandOutcome run_flexneck(const std::string& arguments) {
   return run_shell(flexneck_program() + " " + arguments);
 }
 
-/// Lines that are no warning.
+/// Number of lines that are not warnings.
 inline int plain_lines(const std::string& text) {
   std::istringstream lines(text);
   int count = 0;
@@ -25,7 +25,7 @@ inline int plain_lines(const std::string& text) {
   return count;
 }
 
-/// The command says why in one clear line, after its warnings.
+/// Checks that the command gives its reason in one clear line, after its warnings.
 /// @param reason part of that line
 inline void check_refused(const CommandOutcome& outcome, const std::string& reason,
                           int exit_code = 2) {

@@ -7,7 +7,7 @@
 
 namespace flexneck::testing {
 
-/// Runs the test case that calls it once with each formulation.
+/// Runs the calling test case once with each formulation.
 inline multibody::Formulation either_formulation() {
   return GENERATE(multibody::Formulation::descriptor, multibody::Formulation::recursive);
 }
@@ -18,7 +18,7 @@ inline multibody::SolverOptions solver_of(double relative, double absolute) {
           .formulation = either_formulation()};
 }
 
-/// Of runs that are compared with closed forms.
+/// Options for runs that are compared with closed forms.
 inline multibody::SolverOptions tight_solver() { return solver_of(1e-11, 1e-13); }
 
 }  // namespace flexneck::testing

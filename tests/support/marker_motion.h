@@ -10,30 +10,30 @@
 
 namespace flexneck::testing {
 
-/// exp(~theta) by Eigen, not by the code under test.
+/// The rotation exp(~theta) by Eigen, not by the code under test.
 inline Eigen::Matrix3d turned(const Eigen::Vector3d& theta) {
   const double angle = theta.norm();
   if (angle == 0) return Eigen::Matrix3d::Identity();
   return Eigen::AngleAxisd(angle, theta / angle).toRotationMatrix();
 }
 
-/// Where a marker is in the world.
+/// Position and orientation of a marker in the world.
 struct Frame {
   Eigen::Vector3d p;
   Eigen::Matrix3d R;
 };
 
-/// A marker at an interface of a deformable body on a given motion through t = 0 with velocities
-/// V = (xdot, w, adot) and accelerations Vdot: rotation A exp(~(w t + wdot t^2 / 2)), everything
-/// else a parabola. Nothing but the definition of a marker's place.
+/// A marker at an interface of a deformable body on a given motion through t = 0 with velocities V
+/// = (xdot, w, adot) and accelerations Vdot: rotation A exp(~(w t + wdot t^2 / 2)), everything else
+/// a parabola. It uses only the definition of a marker's position.
 struct MarkerMotion {
   const fe_modal::Interface& place;
   Eigen::Matrix3d R0;  ///< marker axes to node axes
   Eigen::Vector3d x;
   Eigen::Matrix3d A;
   Eigen::VectorXd a, V, Vdot;
-  /// With stress stiffening: minus half the work of unit loads is the second-order motion, in which
-  /// the modes have a share.
+  /// Data of stress stiffening: the second-order motion is minus half the work of unit loads, to
+  /// which the modes contribute.
   const fe_modal::GeometricStiffness::OfInterface* loads = nullptr;
   std::vector<Eigen::MatrixXd> modal_acceleration = {};
 

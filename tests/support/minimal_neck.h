@@ -25,8 +25,8 @@ inline Eigen::Matrix3d turn_by(const Eigen::Vector3d& theta) {
                           : Eigen::Matrix3d::Identity();
 }
 
-/// Left Jacobian of the rotation vector as the mean of the rotations on the way,
-/// J_l = int_0^1 exp(u ~theta) du, by five Gauss points on eight pieces.
+/// Left Jacobian of the rotation vector as the mean of the intermediate rotations, J_l = int_0^1
+/// exp(u ~theta) du, by five Gauss points on eight pieces.
 inline Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& theta) {
   constexpr double kNodes[] = {0.046910077030668, 0.230765344947158, 0.5, 0.769234655052842,
                                0.953089922969332};
@@ -50,16 +50,17 @@ inline Eigen::Matrix3d left_jacobian_rate(const Eigen::Vector3d& theta,
 
 }  // namespace minimal
 
-/// The neck's root moves with the base, the head with the neck's top: only the modes are unknown.
+/// The neck's root moves with the base, the head with the neck's top: only the modal coordinates
+/// are unknown.
 struct MinimalModel {
   fe_modal::ModalBody neck;
   double zeta;
   multibody::RigidBody head;
   Eigen::Vector3d gravity_N;    ///< in neck axes, which the base keeps
-  Eigen::Vector3d direction_N;  ///< of the base's acceleration, neck axes
+  Eigen::Vector3d direction_N;  ///< direction of the base's acceleration, neck axes
   multibody::TimeTable acceleration;
 
-  /// M a'' = f.
+  /// Terms of M a'' = f.
   struct Terms {
     Eigen::MatrixXd mass;
     Eigen::VectorXd load;
@@ -77,7 +78,7 @@ struct MinimalModel {
     const Eigen::Vector3d theta = mu * a;
     const Eigen::Matrix3d R = minimal::turn_by(theta);
     const Eigen::Matrix3Xd J_mu = minimal::left_jacobian(theta) * mu;
-    // In the head's axes: angular velocity, and the part of its rate that a'' does not make.
+    // In the head's axes: angular velocity, and the part of its rate that does not depend on a''.
     const Eigen::Matrix3Xd Jw = R.transpose() * J_mu;
     const Eigen::Vector3d w = Jw * rate;
     const Eigen::Vector3d w_rate =

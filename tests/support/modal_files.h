@@ -9,7 +9,7 @@
 
 namespace flexneck::testing {
 
-/// A beam as `flexneck modes` would leave it: its bending modes have the names of the neck's.
+/// Writes a beam in the format of `flexneck modes`: its bending modes have the names of the neck's.
 void write_beam_modes(const std::filesystem::path& path, const Beam& beam = {},
                       const std::string& root = "base", const std::string& tip = "top");
 

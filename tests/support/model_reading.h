@@ -23,7 +23,7 @@ inline multibody::History run(const pipeline::ModelFile& file, bool states = fal
              : multibody::simulate(file.model, file.solver, output);
 }
 
-/// What reading and running this model refuses.
+/// Message with which reading or running this model is refused.
 inline std::string refusal_of_model(const TemporaryFolder& folder, const std::string& text) {
   try {
     const pipeline::ModelFile file = read_model(folder, text);

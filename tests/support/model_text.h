@@ -7,7 +7,7 @@
 
 namespace flexneck::testing {
 
-/// A physical pendulum of two bodies, each turning about its own axis: small, and nothing planar.
+/// A physical pendulum of two bodies, each rotating about its own axis: small, and not planar.
 inline std::string double_pendulum_text() {
   return R"(
 [solver]

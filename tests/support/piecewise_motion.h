@@ -10,8 +10,8 @@
 
 namespace flexneck::testing {
 
-/// A coordinate x under a constant acceleration and springs that act beyond or below a place only,
-/// in closed form: parabolas and sinusoids from one such place to the next.
+/// A coordinate x under a constant acceleration and springs that act only beyond or below a
+/// position, in closed form: parabolas and sinusoids from one such position to the next.
 class PiecewiseMotion {
  public:
   struct Spring {
@@ -37,7 +37,7 @@ class PiecewiseMotion {
   }
 
  private:
-  /// x'' = a - k (x - c) here, by where x goes.
+  /// Sets x'' = a - k (x - c) for the present piece, by the direction of x.
   void look() {
     k_ = 0;
     pull_ = acceleration_;

@@ -25,7 +25,7 @@ void mass_orthonormalise(const Eigen::VectorXd& masses, std::vector<Eigen::Matri
     }
 }
 
-/// The geometric stiffness of loads is minus their work on the second-order displacements.
+/// Geometric stiffness of loads: minus their work on the second-order displacements.
 Eigen::MatrixXd work_on(const std::vector<Eigen::Matrix3Xd>& second_shapes,
                         const Eigen::Matrix3Xd& loads) {
   const auto m = static_cast<Eigen::Index>(std::lround(std::sqrt(second_shapes.size())));
@@ -36,8 +36,8 @@ Eigen::MatrixXd work_on(const std::vector<Eigen::Matrix3Xd>& second_shapes,
   return work;
 }
 
-/// Random second-order displacements and rotations, a few centimetres at coordinates of 0.1, and
-/// the geometric stiffness that goes with them.
+/// Adds random second-order displacements and rotations, a few centimetres at coordinates of 0.1,
+/// and the corresponding geometric stiffness.
 void add_second_order(unsigned seed, PointMassBody& points) {
   fe_modal::ModalBody& body = points.body;
   const Eigen::Index m = body.mode_count();
@@ -147,7 +147,7 @@ fe_modal::GeometricStiffness inertial_stiffness_of_points(
     stiffness.angular_acceleration.push_back(
         of_field([&](const Eigen::Vector3d& s) -> Eigen::Vector3d { return e.cross(s); }));
   }
-  // A product of unlike components comes twice in w x (w x s).
+  // A product of different components occurs twice in w x (w x s).
   for (const auto& [i, j] : {std::pair(0, 0), {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}) {
     const Eigen::Vector3d e = axes.col(i);
     const Eigen::Vector3d f = axes.col(j);

@@ -12,7 +12,7 @@
 
 namespace flexneck::testing {
 
-/// Reproducible numbers in [-1, 1), the same on every platform.
+/// Reproducible random numbers in [-1, 1), the same on every platform.
 class RandomNumbers {
  public:
   explicit RandomNumbers(unsigned seed) : engine_(seed) {}
@@ -41,8 +41,8 @@ class RandomNumbers {
   std::mt19937 engine_;
 };
 
-/// A body of n point masses that moves in m shapes: everything about it follows from sums over
-/// its points, without any of the formulas under test.
+/// A body of n point masses with m shapes: all its properties are sums over its points, without any
+/// of the formulas under test.
 struct PointMassBody {
   Eigen::VectorXd masses_kg;  ///< (n)
   /// m * m displacements of all points, [j * m + l], symmetric in j and l.
@@ -52,27 +52,29 @@ struct PointMassBody {
   Eigen::Index point_count() const { return masses_kg.size(); }
   /// Position of point k in the body frame at modal coordinates a.
   Eigen::Vector3d point(Eigen::Index k, const Eigen::VectorXd& a) const;
-  /// The share of mode k in the second-order displacements of all.
+  /// Coefficient of mode k in the second-order displacements of all points.
   double modal_share(std::size_t k, const Eigen::VectorXd& a) const;
-  /// What stress stiffening adds to it: the rest of the second-order displacement.
+  /// Displacement by stress stiffening: the second-order displacement less its modal part.
   Eigen::Vector3d second_order(Eigen::Index k, const Eigen::VectorXd& a) const;
 };
 
-/// The sums of equations.md section 2.
+/// Invariants by the sums of equations.md section 2.
 fe_modal::InertiaInvariants invariants_of_points(const Eigen::VectorXd& masses,
                                                  const Eigen::Matrix3Xd& points,
                                                  const std::vector<Eigen::Matrix3Xd>& shapes);
 
-/// For the loads -rho (a + alpha x s0 + w x (w x s0) + psi q'') of unit accelerations.
+/// Geometric stiffness of the loads -rho (a + alpha x s0 + w x (w x s0) + psi q'') of unit
+/// accelerations.
 fe_modal::GeometricStiffness inertial_stiffness_of_points(
     const Eigen::VectorXd& masses, const Eigen::Matrix3Xd& points,
     const std::vector<Eigen::Matrix3Xd>& shapes,
     const std::vector<Eigen::Matrix3Xd>& second_shapes);
 
 /// A random body about 0.2 m long and 2 kg heavy. Interfaces: "root" at the origin, which no mode
-/// moves (the body frame rides on it); "tip" and "side", which translate with a point and turn by
-/// random modal matrices, a few degrees per centimetre of motion. Nothing else is fixed, so every
-/// invariant is full. Its geometric stiffness belongs to random second-order displacements.
+/// moves (the body frame is fixed to it); "tip" and "side", which translate with a point and rotate
+/// by random modal matrices, a few degrees per centimetre of motion. Nothing else is constrained,
+/// so every invariant is full. Its geometric stiffness belongs to random second-order
+/// displacements.
 PointMassBody make_point_mass_body(unsigned seed, int mode_count = 3, int point_count = 12);
 
 }  // namespace flexneck::testing

@@ -8,7 +8,7 @@
 
 namespace flexneck::testing {
 
-/// Symmetric and positive, for sections.
+/// A random symmetric positive definite matrix, for sections.
 inline Eigen::Matrix<double, 6, 6> random_stiffness(RandomNumbers& random) {
   Eigen::Matrix<double, 6, 6> root;
   random.fill(root);

@@ -14,7 +14,7 @@ namespace flexneck::testing {
 
 inline constexpr double kGravity = 9.81;  ///< m/s^2
 
-/// A model under construction: each call adds one thing and returns its index.
+/// A model under construction: each call adds one item and returns its index.
 struct ModelBuilder {
   multibody::Model model;
 
@@ -52,7 +52,7 @@ struct ModelBuilder {
 
 multibody::DeformableBody deformable(fe_modal::ModalBody modes, double damping_ratio);
 
-/// A force that is the same at all times.
+/// A table of a constant force.
 multibody::TimeTable constant_table(double value);
 
 /// A head like the Hybrid III's about the joint point, in neck axes.
@@ -64,7 +64,7 @@ multibody::RigidBody make_head();
 ModelBuilder head_on_neck(const multibody::PrescribedBody& base, const multibody::Pose& pose,
                           const Beam& beam, double damping_ratio, const multibody::RigidBody& head);
 
-/// Neck z down, x as the world's: the pendulum's neck.
+/// Pose of the pendulum's neck: z down, x as the world's.
 multibody::Pose hanging_pose();
 
 /// Rotation of column k of a marker's history, marker to world.

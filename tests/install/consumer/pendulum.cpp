@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A rod on a pin, let go from the horizontal: what flexneck computes, beside the closed forms.
+// A rod on a revolute joint, released from the horizontal: flexneck's results and the closed forms.
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -28,7 +28,7 @@ int main() {
   model.joints = {{"pin", &kRevoluteJoint, 0, 1, Eigen::Vector3d::UnitY()}};
   model.gravity_m_s2 = {0, 0, -kGravity};
 
-  // By energy the end passes the lowest point with v^2 = 3 g (2 h).
+  // By conservation of energy the end passes the lowest point with v^2 = 3 g (2 h).
   SolverOptions solver;
   solver.relative_tolerance = 1e-9;
   const History run = simulate(model, solver, {1.0, 1e-3});

@@ -24,7 +24,7 @@ class Files {
   TemporaryFolder folder_;
 };
 
-/// What an import says when it refuses, or "accepted".
+/// Message with which an import refuses, or "accepted".
 inline std::string refusal(const mesher::ImportOptions& options) {
   try {
     mesher::import_mesh(options, {});
@@ -34,14 +34,14 @@ inline std::string refusal(const mesher::ImportOptions& options) {
   return "accepted";
 }
 
-/// The lines that an import warns with.
+/// The warnings of an import, one per line.
 inline std::string warnings_of(const mesher::ImportOptions& options) {
   std::string lines;
   mesher::import_mesh(options, {}, [&](const std::string& line) { lines += line + "\n"; });
   return lines;
 }
 
-/// All parts named of one material, "stuff".
+/// Import options in which all named parts have one material, "stuff".
 inline mesher::ImportOptions import_options(const std::filesystem::path& file,
                                             const std::vector<std::string>& parts) {
   mesher::ImportOptions options;
@@ -79,8 +79,8 @@ $Elements
 $EndElements
 )";
 
-/// What is told of an Abaqus deck.
-/// @param is_reduced  whether the modes are to be of elements with reduced integration
+/// The warning of an import of an Abaqus deck.
+/// @param is_reduced  true if the modes will use elements with reduced integration
 inline std::string warning_of_deck(const std::string& deck, bool is_reduced = false) {
   const Files files;
   mesher::ImportOptions options;

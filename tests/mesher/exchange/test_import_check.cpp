@@ -23,7 +23,7 @@ std::string refusal(const std::function<void(Mesh&)>& change, bool keeps_doubles
   return "accepted";
 }
 
-/// Copies a block with nodes of its own, moved upwards.
+/// Appends a copy of a block with nodes of its own, moved upwards.
 void append_copy(Mesh& mesh, std::size_t block, double up_m) {
   ElementBlock copy = mesh.blocks[block];
   copy.part = "copy";

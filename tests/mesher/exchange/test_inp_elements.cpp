@@ -17,8 +17,8 @@ using testing::import_options;
 using testing::warning_of_deck;
 
 /// An element as the Abaqus manual draws it (6.14, Elements, "Three-dimensional solid element
-/// library"): corners in reference coordinates, then the corners that each midside node lies
-/// between, then the corners of the sides S1, S2, …; all counted from 1.
+/// library"): corners in reference coordinates, then the two corners of each midside node, then the
+/// corners of the sides S1, S2, …; all counted from 1.
 struct ManualElement {
   std::string type;
   ElementKind kind;
@@ -74,7 +74,7 @@ const std::vector<ManualElement>& manual() {
   return kManual;
 }
 
-/// A skew map, so that no two directions can be mistaken for one another.
+/// A skew map, under which no two directions can be confused.
 Eigen::Vector3d skewed(const std::array<double, 3>& x) {
   Eigen::Matrix3d map;
   map << 2, 0.3, 0.1, -0.2, 3, 0.4, 0.5, -0.6, 5;
@@ -85,7 +85,7 @@ std::array<double, 3> middle(const std::array<double, 3>& a, const std::array<do
   return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
 }
 
-/// A file with this element alone, nodes numbered 10, 20, …, and a surface for each side.
+/// A file with this element only, nodes numbered 10, 20, …, and a surface for each side.
 std::string inp_of(const ManualElement& element) {
   std::vector<std::array<double, 3>> nodes = element.corners;
   for (const auto& [a, b] : element.midsides) {

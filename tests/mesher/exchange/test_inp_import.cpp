@@ -15,8 +15,8 @@ using testing::warning_of_deck;
 
 constexpr double kRounding = 1e-13;
 
-/// A box of 1 x 2 x 3 as C3D8, two on one another, with everything a small deck has. In mm, N, s:
-/// steel.
+/// Two boxes of 1 x 2 x 3 as C3D8, one above the other, with all features of a small deck. Units
+/// mm, N, s; steel.
 const char* const kDeck = R"(** a comment
 *Heading
  two bricks
@@ -123,7 +123,7 @@ TEST_CASE("the study's parts and materials go before the file's") {
   REQUIRE(mesh.blocks.size() == 2);
   CHECK(mesh.blocks[0].part == "upper");
   CHECK(mesh.materials[mesh.blocks[0].material].name == "stuff");
-  CHECK(mesh.blocks[1].part == "Both");  // what is left of it
+  CHECK(mesh.blocks[1].part == "Both");  // without the elements of other parts
   CHECK(mesh.blocks[1].size() == 1);
   CHECK(mesh.materials[mesh.blocks[1].material].name == "Steel");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every parameter that Abaqus and CalculiX give a keyword is obeyed, changes nothing, or is refused
-// by name.
+// Every parameter of a keyword in Abaqus and CalculiX is obeyed, has no effect, or is refused by
+// name.
 #include <set>
 
 #include <catch2/catch.hpp>
@@ -71,7 +71,7 @@ PIN, 6, 3
 *END STEP
 )";
 
-/// From the keyword references of Abaqus and CalculiX, all keywords that are read together.
+/// All parameters in the keyword references of Abaqus and CalculiX of the keywords that are read.
 const std::set<std::string> kDocumented = {"ALPHA",
                                            "AMPLITUDE",
                                            "ANALYTICAL SURFACE",

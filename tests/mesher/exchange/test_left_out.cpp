@@ -13,7 +13,7 @@ using Catch::Matchers::EndsWith;
 using testing::Files;
 using testing::import_options;
 
-/// Two unit cubes on one another, in fixed fields.
+/// Two unit cubes, one above the other, in fixed fields.
 const char* const kBulk = R"(GRID           1              0.      0.      0.
 GRID           2              1.      0.      0.
 GRID           3              1.      1.      0.
@@ -114,7 +114,7 @@ std::string data_set(int number, const std::string& lines) {
   return "    -1\n" + std::to_string(number) + "\n" + lines + "    -1\n";
 }
 
-/// A unit cube, with more elements if wanted.
+/// A unit cube, with more elements if given.
 std::string unv(const std::string& more_elements = "") {
   std::string nodes;
   const std::array<const char*, 8> places = {"0. 0. 0.", "1. 0. 0.", "1. 1. 0.", "0. 1. 0.",
@@ -211,7 +211,7 @@ TEST_CASE("20-node hexahedra of a .bdf are one, however their lines continue") {
       grids += (&x == nodes[n].data() ? ",," : ",") + std::to_string(x);
     grids += "\n";
   }
-  // Ours by number, in the order of Nastran: lower, rising and upper edges.
+  // Node numbers of this program in the order of Nastran: lower, rising and upper edges.
   const std::array<int, 20> order = {1,  2,  3,  4,  5,  6,  7,  8,  9,  12,
                                      14, 10, 11, 13, 15, 16, 17, 19, 20, 18};
   const auto fixed = [&](std::size_t first, std::size_t count, std::size_t width) {

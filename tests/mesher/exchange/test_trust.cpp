@@ -38,7 +38,7 @@ TEST_CASE("gmsh itself runs a script whatever its ending, and the options beside
   for (const char* const name : {"mesh.msh", "mesh.inp", "mesh.pos"}) {
     INFO(name);
     static_cast<void>(session.errors_of([&] { gmsh::merge(files.write(name, payload.script())); }));
-    CHECK(payload.has_run());  // or else the tests below show nothing
+    CHECK(payload.has_run());  // otherwise the tests below prove nothing
     payload.forget();
   }
   const auto mesh = files.write("good.msh", kTetrahedronMsh);

@@ -18,7 +18,7 @@ using Catch::Matchers::Contains;
 using testing::bytes_of;
 using testing::Files;
 
-/// The small mesh with a node set that is no face set, and with positions that no short text holds.
+/// The small mesh with a node set that is no face set, and with positions that need all digits.
 Mesh awkward_mesh() {
   Mesh mesh = testing::small_mesh();
   for (auto& node : mesh.nodes) {
@@ -28,7 +28,7 @@ Mesh awkward_mesh() {
   return mesh;
 }
 
-/// The same with elements of 20 nodes: faces of eight.
+/// The mesh with elements of 20 nodes: its faces have eight.
 Mesh hex20_mesh() {
   const Mesh rich = awkward_mesh();
   Mesh mesh = rich;

@@ -107,7 +107,7 @@ class Exchange(unittest.TestCase):
     def check_swing(self, body):
         pendulum = Pendulum(body, len(USED), "clamp", AXIS, GRAVITY, DAMPING)
         found = pendulum.run(SPEED, END, 200)
-        # kg^(1/2) m and rad; the largest coordinate is about 2e-3.
+        # In kg^(1/2) m and rad; the largest coordinate is about 2e-3.
         error = abs(found - self.truth).max()
         print(f"{self.id().split('.')[-1]}: largest difference {error:.1e}, angle {found[0]:.9f}, a {found[1:]}")
         self.assertLess(error, 1e-8)
@@ -157,11 +157,13 @@ class Exchange(unittest.TestCase):
         self.assertAlmostEqual(bar.K[0, 0]**0.5 / (2 * numpy.pi), 8.36, 3)
         self.assertLess(abs(blocks["mdCM"][1][:, :, 0] - bar.S2).max(), 1e-12)
         self.assertLess(abs(blocks["J"][1][:3, 0, 0] - 2 * numpy.diag(bar.G0[0])).max(), 1e-12)
-        # Rotations of the nodes: the first order of their axes, and linear axes of the far node.
+        # Rotations of the nodes: to first order those of their axes, with linear axes of the far
+        # node.
         for _, node in nodes:
             turned = foreign_bodies.skew(node["psi"][0][:, 0])
             self.assertLess(abs(node["AP"][1][:, 0, :] - turned).max(), 1e-11)
-        # Its centrifugal terms are of lumped masses, its generalised mass is not: no one body has both.
+        # Its centrifugal terms are those of lumped masses, its generalised mass is not: no body has
+        # both.
         self.assertAlmostEqual(numpy.trace(bar.G[0, 0]) / 2, 1.173, 3)
         for name in ("balken1m", "beam"):
             told = self.flexneck("export", SAMPLES / f"sid_fem/{name}.SID_FEM", "--to", "sample.h5", expected=2)

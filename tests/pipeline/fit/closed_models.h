@@ -21,8 +21,8 @@ using pipeline::FitObjective;
 using pipeline::FitRange;
 using pipeline::FitTerm;
 
-/// A free oscillation, its amplitude, damping and frequency to be found: a cos(2 pi f t) exp(-d t)
-/// at 12 times within 1 s.
+/// A free oscillation with unknown amplitude, damping and frequency: a cos(2 pi f t) exp(-d t) at
+/// 12 times within 1 s.
 inline Eigen::VectorXd oscillation(const Eigen::VectorXd& parameters) {
   constexpr int kTimes = 12;
   Eigen::VectorXd values(kTimes);
@@ -39,12 +39,12 @@ inline FitModel model_of(Eigen::VectorXd (*values)(const Eigen::VectorXd&),
   return {values, pipeline::central_differences(values, ranges)};
 }
 
-/// A standard normal number, a function of seed and position.
+/// A standard normal number as a function of seed and position.
 inline double normal_number(std::uint64_t seed, std::uint64_t position) {
   return pipeline::normal_quantile(pipeline::open_unit(pipeline::random_bits(seed, 77, position)));
 }
 
-/// Each observable a target of its own.
+/// Targets, one for each observable.
 inline std::vector<FitTerm> targets(const Eigen::VectorXd& values, double deviation) {
   std::vector<FitTerm> terms;
   for (Eigen::Index k = 0; k < values.size(); ++k)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fits of a study whose runs take milliseconds, and what they write.
+// Fits of a study whose runs take milliseconds, and the files they write.
 #pragma once
 
 #include <filesystem>
@@ -40,7 +40,7 @@ inline double cell(const nlohmann::json& table, std::size_t row, std::size_t col
   return std::stod(table.at("rows").at(row).at(column).get<std::string>());
 }
 
-/// The bar's material, which the deck has too, in the study.
+/// Text of a study with the bar's material, which the deck has too.
 inline const std::string kRubber =
     "[geometry.materials.Rubber]\nyoungs_modulus = \"70 MPa\"\npoissons_ratio = 0.3\n"
     "density = \"3000 kg/m^3\"\nparts = [\"BAR\"]\n";
@@ -51,14 +51,14 @@ inline const std::string kMass =
     "[[fit.parameter]]\nname = \"head\"\nkey = \"body.head.mass\"\nunit = \"kg\"\nfrom = 3\n"
     "to = 6\nstart = 5.5\n";
 
-/// A frequency of the bar as it is, 70 MPa, and the first with the head.
+/// Text of a target: the bar's frequency at 70 MPa, and the first one with the head.
 inline std::string target(const std::string& output, const std::string& value,
                           const std::string& more = "relative_deviation = 0.001\n") {
   return "[[fit.target]]\nname = \"" + output + "\"\noutput = \"" + output + "\"\nvalue = \"" +
          value + "\"\n" + more;
 }
 
-/// A process has one console.
+/// The console of the process, which may have only one.
 inline const pipeline::Console& quiet_console() {
   static const pipeline::Console console(pipeline::Verbosity::quiet);
   return console;

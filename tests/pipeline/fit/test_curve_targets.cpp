@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Curves, corridors and ratings as targets: a damping ratio is found again from its own curve.
+// Curves, corridors and ratings as targets: a damping ratio is recovered from its own curve.
 #include <cmath>
 #include <fstream>
 
@@ -17,10 +17,10 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kDamping = 0.7;
-/// Close enough for a rating.
+/// An output interval short enough for a rating.
 const std::string kDense = " --set output.interval=\"'0.5 ms'\"";
 
-/// The run of the beam with that damping, and fits of it.
+/// A run of the beam with a known damping ratio, and fits of it.
 class CurveFit {
  public:
   explicit CurveFit(std::string more = "") : more_(std::move(more)), truth_(run_with(kDamping)) {}
@@ -90,7 +90,8 @@ TEST_CASE("a channel of an ISO-MME test is a target, with another time zero and 
   CHECK(lab.damping(target) == Approx(kDamping).epsilon(1e-4));
   // The fit rests on the channel's file, not on the folder.
   CHECK_THAT(bytes_of(lab.path("out/fitted.toml")), Contains("lab12.001"));
-  // Of so slow a motion a filter takes little; it must have been run, and is told where it cannot.
+  // A filter changes so slow a motion only a little; it must have been applied, and the fit reports
+  // where it cannot be.
   const double filtered = lab.damping(target + "filter = \"CFC 60\"\n");
   CHECK(filtered == Approx(kDamping).epsilon(0.01));
   CHECK(filtered != Approx(kDamping).epsilon(1e-6));
@@ -132,7 +133,7 @@ TEST_CASE("a corridor is a window at each of its points") {
   CHECK(cell(table_in(lab.path("out"), "fit targets"), 0, 5) < 0.05);  // of 0.04 deg
   const nlohmann::json history = table_in(lab.path("out"), "fit history");
   CHECK_THAT(bytes_of(lab.path("out/fit-curve-rotation.svg")), Contains("corridor"));
-  // Kept to, it ends a fit to a much smaller peak where the run is at an edge.
+  // If the window is kept, a fit to a much smaller peak ends where the run is at its edge.
   const std::string smaller =
       "[[fit.target]]\nname = \"peak\"\noutput = \"pendulum.flexion.head_rotation\"\n"
       "value = \"1 deg\"\nstandard_deviation = \"1 deg\"\n";
@@ -141,7 +142,8 @@ TEST_CASE("a corridor is a window at each of its points") {
   CHECK(edge > kDamping);
   const pipeline::Curve at_edge = lab.run_with(edge);
   CHECK((at_edge.values - truth.values).cwiseAbs().maxCoeff() == Approx(0.2).epsilon(0.02));
-  // Not all of the prior meets it, as it would if points were averaged over the time at rest.
+  // Only a part of the prior is inside, whereas averaging over the time at rest would accept all of
+  // it.
   CHECK(cell(history, 1, 3) < 50);
   CHECK(cell(history, 1, 3) > 0);
 

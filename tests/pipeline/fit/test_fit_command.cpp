@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// 'flexneck fit' as users run it, on a study whose runs take milliseconds.
+// Tests of 'flexneck fit' on a study whose runs take milliseconds.
 #include <cmath>
 #include <fstream>
 
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What a sweep says of the study at other values.
+/// An output of a sweep of the study with other values.
 double figure_of(const fs::path& folder, const std::string& output, const std::string& settings) {
   const fs::path study = write_beam_study(
       folder, kRubber + "[sweep]\noutputs = [\"" + output +
@@ -47,7 +47,7 @@ TEST_CASE("a fit finds a modulus by a frequency, and the fitted study has it") {
   CHECK_THAT(outcome.text, Contains("Unique within the bounds, as far as 3 starts tell"));
   const nlohmann::json parameters = table_in(folder / "out", "fit parameters");
   CHECK(cell(parameters, 0, 2) == Approx(95).epsilon(1e-4));
-  // By the frequencies 1 MPa below and above.
+  // The slope follows from the frequencies 1 MPa below and above.
   const double slope = (at("96 MPa") - at("94 MPa")) / 2;
   const double half = 0.5 * (cell(parameters, 0, 4) - cell(parameters, 0, 3));
   CHECK(half == Approx(1.96 * 0.001 * wanted / slope).epsilon(0.01));
@@ -62,8 +62,8 @@ TEST_CASE("a fit finds a modulus by a frequency, and the fitted study has it") {
 TEST_CASE("closed-form slopes and differences come to the same fit") {
   const TemporaryFolder folder;
   const double wanted = figure_of(folder.path(), "modes.system_frequency", "");
-  // Figures of the modes: in closed form; not of another basis, and not those of a pendulum
-  // beside them unless it is held out.
+  // Derivatives of the modes' results are in closed form; not for another basis, nor if there are
+  // pendulum outputs among the targets, unless these are held out.
   const std::string of_modes = kRubber + "[fit]\nstarts = 1\n" + kModulus +
                                target("modes.system_frequency", std::to_string(wanted) + " Hz");
   const fs::path study = write_beam_study(folder.path(), of_modes);
@@ -92,7 +92,7 @@ TEST_CASE("closed-form slopes and differences come to the same fit") {
 }
 
 TEST_CASE("what no target fixes makes a fit not unique in its first line") {
-  // Modulus and head's mass both move the one frequency.
+  // Both modulus and head mass change the single frequency.
   const CommandOutcome outcome = outcome_of(kRubber + "[fit]\nstarts = 2\n" + kModulus + kMass +
                                             target("pendulum.flexion.system_frequency", "5 Hz"));
   INFO(outcome.text);
@@ -116,14 +116,15 @@ TEST_CASE("an expression of the parameters is a target, and an inequality betwee
     return "[[fit.target]]\nname = \"of " + std::to_string(text.size()) + "\"\nexpression = \"" +
            text + "\"\n" + wanted;
   };
-  // One frequency and a product fix both, and both are met.
+  // One frequency and a product determine both parameters, and both targets are met.
   const auto [modulus, mass] =
       fitted(target("pendulum.flexion.system_frequency", "2.5 Hz") +
              expression("sqrt(E * head)", "value = \"20\"\nstandard_deviation = \"0.01\"\n"));
   CHECK(std::sqrt(modulus * mass) == Approx(20).margin(1e-3));
   CHECK(cell(table_in(folder / "out", "fit targets"), 0, 2) == Approx(2.5).epsilon(1e-4));
-  // Drawn to 90 and 5, kept to E <= 15 head: the nearest point of that half-plane by the
-  // deviations, 1 and 0.1, is 90 - a, 5 + 0.15 a with a = 15 / (1 + 2.25).
+  // The targets are 90 and 5, with the constraint E <= 15 head: the nearest point of that
+  // half-plane in units of the deviations, 1 and 0.1, is 90 - a, 5 + 0.15 a with a = 15 / (1 +
+  // 2.25).
   const auto [nearest, heavier] =
       fitted(expression("E", "value = \"90\"\nstandard_deviation = \"1\"\n") +
              expression("head", "value = \"5\"\nstandard_deviation = \"0.1\"\n") +
@@ -155,7 +156,7 @@ TEST_CASE("a fit is the same for any threads, and goes on with what is there") {
   CHECK_THAT(two.text, Contains("Chosen with the targets in sight: (1) The case was picked."));
   for (const char* const name : {"fit-targets.svg", "fit-profiles.svg", "fit-history.svg"})
     CHECK_THAT(bytes_of(folder / "one" / name), Contains("</svg>"));
-  // A row that is gone is computed again, and nothing changes.
+  // A row that was removed is computed again, and the results do not change.
   const std::string whole = bytes_of(folder / "one/fit.json");
   const fs::path rows = folder / "one/fit-rows/starts.txt";
   const std::string text = bytes_of(rows);
@@ -238,7 +239,7 @@ TEST_CASE("a disk that fills up ends a fit with one line, and then it goes on") 
       "[fit]\nstarts = 1\nhistory_samples = 200\n" + kMass +
           target("pendulum.flexion.head_rotation", "17 deg", "standard_deviation = \"1 deg\"\n"));
   require_done(fit(study, folder / "whole"));
-  // A file may have 2 kB: that stands for the disk.
+  // A limit of 2 kB per file simulates a full disk.
   const CommandOutcome outcome = run_shell("sh -c 'ulimit -f 4; exec " + flexneck_program() +
                                            " -q " + fit(study, folder / "full") + "'");
   check_refused(outcome, "cannot be written", 3);

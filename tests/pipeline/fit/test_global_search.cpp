@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A search over all of the bounds, of an objective with many minima.
+// A search over all of the bounds for an objective with many minima.
 #include <cmath>
 #include <numbers>
 
@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// A sine of an amplitude and a frequency at 60 times: minima for many frequencies.
+/// A sine with given amplitude and frequency at 60 times: there are minima at many frequencies.
 VectorXd sine(const VectorXd& parameters) {
   VectorXd values(60);
   for (int k = 0; k < 60; ++k)
@@ -48,7 +48,7 @@ TEST_CASE("a global search ends with its evaluations, and when it is stopped") {
   int evaluations = 0;
   const auto counted = [&](const VectorXd& at) -> VectorXd {
     ++evaluations;
-    if (at[1] > 10) throw std::runtime_error("too quick");  // is gone round
+    if (at[1] > 10) throw std::runtime_error("too quick");  // the search avoids it
     return sine(at);
   };
   const VectorXd start = objective.place(Vector2d(1, 16));

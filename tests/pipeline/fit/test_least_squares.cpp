@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Minima, their error bars, families, profiles and shares against closed forms.
+// Minima, their standard deviations, families, profiles and proportions, against closed forms.
 #include <cmath>
 
 #include <Eigen/Dense>
@@ -23,7 +23,7 @@ VectorXd vector(std::initializer_list<double> values) {
   return VectorXd::Map(values.begin(), static_cast<Index>(values.size()));
 }
 
-/// Three observables, two parameters.
+/// Matrix of a linear model with three observables and two parameters.
 MatrixXd line_matrix() {
   MatrixXd a(3, 2);
   a << 1, 2, -1, 1, 3, 0.5;
@@ -63,10 +63,10 @@ TEST_CASE("a linear fit and its error bars are those of the normal equations") {
           Approx(std::sqrt(covariance(k, k))).epsilon(1e-6));
   CHECK(known.correlations(0, 1) ==
         Approx(covariance(0, 1) / std::sqrt(covariance(0, 0) * covariance(1, 1))));
-  // Without the third target: the covariance of the other two.
+  // Covariance without the third target: that of the other two.
   const MatrixXd two = (a.topRows(2).transpose() * a.topRows(2) / 0.04).inverse();
   CHECK(known.widening(2, 0) == Approx(std::sqrt(two(0, 0) / covariance(0, 0))));
-  // Of a linear model the profile is a parabola, and its ends are 1.96 deviations away.
+  // The profile of a linear model is a parabola, whose ends are 1.96 deviations away.
   const Profile profile = profile_of(objective, found, 0, known.deviation(0), {});
   REQUIRE((profile.low && profile.high));
   CHECK(*profile.high - found.place[0] == Approx(1.959964 * known.deviation(0)).epsilon(0.01));
@@ -74,12 +74,12 @@ TEST_CASE("a linear fit and its error bars are those of the normal equations") {
 }
 
 TEST_CASE("a minimum beyond a bound is found at the bound") {
-  // Unbounded, the first parameter would be negative.
+  // Without bounds the first parameter would be negative.
   const FitObjective objective =
       line_objective({{"a", 0, 10, {}}, {"b", -20, 20, {}}}, vector({-3, 1, -9}), 1);
   const Minimum found = least_squares(objective, vector({0.5, 0.5}), {});
   CHECK(is_at_bound(found.place[0]));
-  // The other is the best of those with the first at 0.
+  // The second parameter is the best one with the first at 0.
   const VectorXd column = line_matrix().col(1);
   const double best = column.dot(vector({-3, 1, -9})) / column.squaredNorm();
   CHECK(objective.parameters(found.place)[1] == Approx(best).margin(1e-3));
@@ -139,7 +139,7 @@ TEST_CASE("all of a window is equally good, and its edges decide") {
   CHECK_FALSE(term.is_met(3.0001, 3));
   const std::vector<FitRange> ranges = {{"x", -3, 3, {}}};
   const FitObjective objective(ranges, {term}, model_of(square, ranges));
-  // From 8.41 into the window, and not on from there.
+  // The search moves from 8.41 into the window, and no further.
   const Minimum found = least_squares(objective, vector({2.9 / 6 + 0.5}), {});
   CHECK(found.values[0] == Approx(3).epsilon(1e-3));
   CHECK(found.chi_squared < 1e-5);
@@ -175,12 +175,12 @@ TEST_CASE("slopes at a bound are of second order, too") {
 }
 
 TEST_CASE("a share has the interval of Clopper and Pearson") {
-  // Of 10 in 100: Pearson's own example has 0.0490 and 0.1762.
+  // For 10 in 100, Pearson's own example gives 0.0490 and 0.1762.
   const Share tenth = share_of(10, 100);
   CHECK(tenth.value == Approx(0.1));
   CHECK(tenth.low == Approx(0.0490047).epsilon(1e-5));
   CHECK(tenth.high == Approx(0.1762226).epsilon(1e-5));
-  // Of none, 1 - 0.025^(1/n) above.
+  // For 0 the upper limit is 1 - 0.025^(1/n).
   const Share none = share_of(0, 50);
   CHECK(none.low == 0);
   CHECK(none.high == Approx(1 - std::pow(0.025, 1.0 / 50)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Windows that must hold, against the nearest points of sets known in closed form.
+// Windows as constraints, against the nearest points of sets in closed form.
 #include <catch2/catch.hpp>
 
 #include "pipeline/fit/limited_fit.h"
@@ -14,12 +14,12 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// The point itself, the sum and the squared distance from the origin.
+/// Observables of a point: its coordinates, their sum and the squared distance from the origin.
 VectorXd plane(const VectorXd& p) {
   return Eigen::Vector4d(p[0], p[1], p[0] + p[1], p.squaredNorm());
 }
 
-/// The nearest to a point, with limits on the sum and on the squared distance.
+/// Objective: the point nearest to a given one, with limits on the sum and on the squared distance.
 FitObjective nearest(const Vector2d& point, FitTerm::Window sum, FitTerm::Window square) {
   const std::vector<FitRange> ranges = {{"x", -10, 10, {}}, {"y", -10, 10, {}}};
   std::vector<FitTerm> terms = {{"x", point[0], 0.1, {}, false},
@@ -43,14 +43,14 @@ Vector2d found_by(const FitObjective& objective, const Vector2d& start) {
 
 TEST_CASE("a fit ends at the nearest place where a window holds") {
   const FitTerm::Window any;
-  // On the line x + y = 2, from either side of it.
+  // The solution is on the line x + y = 2, from either side of it.
   const FitObjective line = nearest({3, 1}, {.high = 2}, any);
   CHECK((found_by(line, {7, 5}) - Vector2d(2, 0)).norm() < 2e-3);
   CHECK((found_by(line, {-5, -6}) - Vector2d(2, 0)).norm() < 2e-3);
   CHECK((found_by(nearest({3, 1}, {.low = 6}, any), {0, 0}) - Vector2d(4, 2)).norm() < 2e-3);
-  // On the unit circle.
+  // The solution is on the unit circle.
   CHECK((found_by(nearest({3, 4}, any, {.high = 1}), {5, -2}) - Vector2d(0.6, 0.8)).norm() < 2e-3);
-  // In the corner that both make: x + y = 1 on the circle.
+  // The solution is in the corner of both constraints: x + y = 1 on the circle.
   CHECK((found_by(nearest({3, 0.5}, {.high = 1}, {.high = 1}), {2, 0.5}) - Vector2d(1, 0)).norm() <
         5e-3);
 }
@@ -70,7 +70,8 @@ TEST_CASE("windows that cannot hold together are told by a target") {
 }
 
 TEST_CASE("the confidence of a parameter ends where no place is left that keeps to a window") {
-  // x alone is free to 3 +- 0.196; the circle of radius 3.05 leaves it to 3.05 where y may be 0.
+  // Without the constraint x has 3 +- 0.196; the circle of radius 3.05 limits it to 3.05, where y
+  // may be 0.
   const FitObjective objective = nearest({3, 0}, {}, {.high = 3.05 * 3.05});
   const Minimum found = least_squares(objective, objective.place(Vector2d(1, 1)), {});
   const Profile profile = profile_of(objective, found, 0, 0.1 / 20, {});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Derivatives of modes' figures in closed form against differences of solutions.
+// Derivatives of the modes' results in closed form, against differences of solutions.
 #include <cmath>
 #include <fstream>
 
@@ -15,7 +15,8 @@ using namespace flexneck::pipeline;
 
 namespace {
 
-/// The neck by a coarse mesh, with the rubber's modulus and density on one variable.
+/// Writes a study of the neck with a coarse mesh, with the rubber's modulus and density on one
+/// variable.
 std::filesystem::path write_neck(const std::filesystem::path& folder) {
   std::filesystem::path path = folder / "neck.toml";
   std::ofstream(path) << "include = [\"" FLEXNECK_SOURCE_DIR
@@ -74,7 +75,7 @@ TEST_CASE("the static stiffness of a bar along its axis is E A / L") {
     return evaluator.evaluate({}, evaluator.wanted({"modes.static_stiffness." + name}, {}))
         .figures[0];
   };
-  // 70 MPa, 32 mm by 30 mm, 144 mm; the clamp holds the width, too.
+  // 70 MPa, 32 mm by 30 mm, 144 mm; the clamp also constrains the width.
   CHECK(stiffness("Fz/uz at top") == Approx(70e6 * 0.032 * 0.030 / 0.144).epsilon(0.03));
   const auto refused = [&](const std::string& name, const std::string& why) {
     CHECK_THROWS_WITH(stiffness(name), Catch::Matchers::Contains(why));

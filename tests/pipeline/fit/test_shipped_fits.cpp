@@ -27,12 +27,12 @@ TEST_CASE("from a neutral start the neck's dimensions come within 0.5 % of the s
   CHECK_THAT(outcome.text, Contains("slopes in closed form") && Contains("Not unique: "));
   const nlohmann::json targets = table_in(folder / "out", "fit targets");
   REQUIRE(targets.at("rows").size() == 8);
-  // As the hand-made sets A (0.4 %) and B (0.3 %) to a tenth of a per cent for the mesh.
+  // The results match the hand-made sets A (0.4 %) and B (0.3 %) to a tenth of a per cent for the
+  // mesh.
   for (std::size_t row = 0; row < 6; ++row) CHECK(std::abs(cell(targets, row, 4)) < 0.5);
   CHECK(targets.at("rows").at(6).at(7) == "held out");
   CHECK(table_in(folder / "out", "fit choices").at("rows").size() == 4);
-  // The fitted study states what it was fitted to, until a dimension changes; not what was held
-  // out.
+  // The fitted study states the targets of its fit until a dimension changes; not those held out.
   const std::filesystem::path fitted = folder / "out/fitted.toml";
   CHECK(pipeline::read_study(fitted, {}).neck()->fitted_to ==
         std::vector<std::string>{"bending 1", "bending 2", "torsion 1", "bending 3", "bending 4",
@@ -54,7 +54,7 @@ TEST_CASE("the head spring is found again from its curves") {
   CHECK(cell(parameters, 1, 2) == Approx(6000).epsilon(0.02));
   CHECK(cell(parameters, 2, 2) == Approx(0.192).epsilon(0.02));
   const nlohmann::json targets = table_in(folder / "out", "fit targets");
-  CHECK(std::abs(cell(targets, 2, 5)) < 0.1);  // what was held out is predicted
+  CHECK(std::abs(cell(targets, 2, 5)) < 0.1);  // the held-out target is predicted
 }
 
 TEST_CASE("the rating of the example's curve rises from the one to the other value of the README") {
@@ -74,7 +74,7 @@ TEST_CASE("the rating of the example's curve rises from the one to the other val
   const pipeline::WantedOutputs wanted =
       evaluator.wanted({}, {"pendulum.flexion-60.head rotation"});
   const pipeline::Curve& measured = evaluator.base().measured.at(0).curves.at(0).curve;
-  // By ISO/TS 18571 and CORA.
+  // Ratings by ISO/TS 18571 and CORA.
   const auto ratings = [&](const std::vector<std::string>& settings) {
     const pipeline::Evaluation found = evaluator.evaluate(settings, wanted);
     const pipeline::Curve computed = pipeline::in_unit(
@@ -88,7 +88,7 @@ TEST_CASE("the rating of the example's curve rises from the one to the other val
                          .overall);
   };
   const auto [before, before_cora] = ratings({});
-  CHECK(before == Approx(0.676).margin(0.03));  // so much the coarse mesh changes
+  CHECK(before == Approx(0.676).margin(0.03));  // the coarse mesh changes it by this much
   CHECK(before_cora == Approx(0.629).margin(0.04));
   const auto value = [&](std::size_t row) {
     return parameters.at("rows").at(row).at(2).get<std::string>();

@@ -14,8 +14,8 @@
 
 namespace flexneck::testing {
 
-/// An FMU that was unpacked into a folder: its shared object loaded, its variables as
-/// modelDescription.xml lists them.
+/// An FMU unpacked into a folder: its loaded shared object, and its variables as listed in
+/// modelDescription.xml.
 class LoadedFmu {
  public:
   explicit LoadedFmu(const std::filesystem::path& folder);
@@ -23,7 +23,7 @@ class LoadedFmu {
   LoadedFmu(const LoadedFmu&) = delete;
   LoadedFmu& operator=(const LoadedFmu&) = delete;
 
-  /// @return whether nothing of the shared object stays loaded
+  /// @return true if no part of the shared object stays loaded
   bool close();
   template <class Function>
   Function* function(const char* name) const {
@@ -43,7 +43,7 @@ class LoadedFmu {
   std::map<std::string, fmi3ValueReference> references_;
 };
 
-/// An instance of it. What a function does not do is an exception, with what was logged.
+/// An instance of the FMU. A function that fails throws an exception with the logged messages.
 class FmuRun {
  public:
   explicit FmuRun(const LoadedFmu& fmu);
@@ -56,11 +56,11 @@ class FmuRun {
   double get(const std::string& name) const;
   std::vector<double> get(const std::vector<std::string>& names) const;
   fmi3Status step(double time_s, double length_s);
-  /// Asked after each of the run's own steps; false asks it to return early.
+  /// Called after each of the run's own steps; returns false to ask it to return early.
   std::function<bool(double time_s)> goes_on;
-  /// Where the last step has ended.
+  /// Time at which the last step ended.
   double reached_s = -1;
-  /// Of a function without arguments.
+  /// Calls a function without arguments.
   fmi3Status call(const char* function);
 
   fmi3FMUState save();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// FMUs as an importer drives them: beside simulate, saved and restored, two at once, unloaded.
+// FMUs driven by an importer: compared with simulate, saved and restored, two at once, unloaded.
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -170,13 +170,13 @@ std::filesystem::path unpacked(const TemporaryFolder& folder, const std::string&
 
 TEST_CASE(
     "an FMU in 1000 steps has the outputs of simulate, and the same again from saved states") {
-  // Without and with muParser: two shared objects.
+  // There are two shared objects, without and with muParser.
   const std::string formulas = GENERATE(as<std::string>(), "", kFormulas);
   CAPTURE(formulas);
   const TemporaryFolder folder;
   LoadedFmu fmu(unpacked(folder, sled_text(kPulse) + formulas));
   CHECK(fmu.function<fmi3GetVersionTYPE>("fmi3GetVersion")() == std::string("3.0"));
-  // simulate with its outputs where the steps end.
+  // Run simulate with outputs at the ends of the steps.
   const std::string fine = " --set output.interval='0.1 ms' --set solver.relative_tolerance=1e-10";
   const std::string at = folder.path().string();
   REQUIRE(testing::run_flexneck("simulate -q " + at + "/sled.toml -o " + at + fine).exit_code == 0);
@@ -186,7 +186,7 @@ TEST_CASE(
   };
 
   FmuRun run(fmu);
-  FmuRun other(fmu);  // another instance in between, with another mass
+  FmuRun other(fmu);  // another instance meanwhile, with another mass
   other.set("body.head.mass", 2);
   run.initialize(1e-10);
   other.initialize();
@@ -216,8 +216,8 @@ TEST_CASE(
   CHECK(largest_Nm < 1e-5 * channel(2).cwiseAbs().maxCoeff());
   CHECK(std::abs(other.get("nod") - found.back()[3]) > 1e-3);
 
-  // From the middle again, in this instance and, by bytes, in a new one, whose mode and tolerance
-  // are part of the state.
+  // Resume from the middle, in this instance and, by serialised bytes, in a new one; mode and
+  // tolerance are part of the state.
   const std::vector<fmi3Byte> bytes = run.bytes_of(middle);
   FmuRun third(fmu);
   fmi3FMUState copy = third.state_of(bytes);
@@ -305,7 +305,7 @@ magnitudes = ["4 N", "44 N"]
   fmi3FMUState state = run.save();
   REQUIRE(run.step(0.5, 0.5) == fmi3OK);
   check(run, 64);
-  // The same again, here and in a new instance.
+  // Repeat the end of the run, here and in a new instance.
   const std::vector<std::string> read = {"place.x", "energy.work"};
   const std::vector<double> end = run.get(read);
   FmuRun other(fmu);
@@ -344,7 +344,7 @@ TEST_CASE(
     CHECK(run.call("fmi3Terminate") == fmi3OK);
   }
   CHECK(fmu.close());
-  // One bit of the model in the FMU's folder.
+  // Change one bit of the model in the FMU's folder.
   const std::filesystem::path model = folder / "fmu/resources/model.bin";
   std::fstream file(model, std::ios::in | std::ios::out | std::ios::binary);
   file.seekg(1000);
@@ -410,7 +410,7 @@ marker = "block.center"
 
 TEST_CASE("an importer ends a long step where it wants, and goes on from there") {
   const TemporaryFolder folder;
-  // 2 kg on 200 N/m, drawn by 0.1 m: it is at 0.1 m (cos(10 t) - 1).
+  // 2 kg on 200 N/m, displaced by 0.1 m: its position is 0.1 m (cos(10 t) - 1).
   LoadedFmu fmu(unpacked(folder, block_text("motion", R"([[marker]]
 body = "ground"
 name = "hook"

@@ -9,7 +9,7 @@
 
 namespace flexneck::testing {
 
-// A test that nobody has made, as a laboratory's program writes it.
+// A fictitious test in the format of a laboratory's program.
 inline const std::string kMmeTest =
     "Data format edition number  :1.6\nLaboratory name             :NOVALUE\n"
     "Title                       :a made-up test, to read\n"
@@ -33,7 +33,7 @@ inline const std::string kMmeAcceleration =
     "Sampling interval           :5E-05\nUnit                        :g\n"
     "Time of first sample        :0\nNumber of samples           :3\n1\n-2\n0.5\n";
 
-/// <folder>/test.mme and what belongs to it.
+/// A folder with test.mme and the files that belong to it.
 class MmeFolder {
  public:
   MmeFolder() {

@@ -25,7 +25,7 @@ namespace {
 
 const std::string kMoment = "11NECKUP00H3MOYP";
 
-/// With another file of the moment.
+/// Checks that a test with another file of the moment is refused.
 void refuses(const std::string& text, const std::string& reason) {
   const MmeFolder folder;
   folder.write("Channel/test.001", text);
@@ -49,7 +49,7 @@ TEST_CASE("a channel of a test is its samples over its times, however the test i
     CHECK(curve.time_s[0] == -0.0002);
     CHECK(curve.time_s[5] == Approx(0.0003).epsilon(1e-12));
   }
-  // One channel needs no code.
+  // A single channel needs no code.
   folder.write("Channel/test.chn",
                with(with(kMmeIndex, ":2\n", ":1\n"),
                     "Name of channel 002         :11HEADCG00H3ACXA / Head CG\n", ""));
@@ -126,7 +126,7 @@ TEST_CASE("the last letter of a code says what the channel has passed, and it is
   CHECK_FALSE(needs('D', ChannelClass::cfc60));
   for (const char narrow : {'C', 'D', 'L', 'S', '2', 'k'})
     CHECK_THROWS_WITH(needs(narrow, ChannelClass::cfc600), Contains("CFC 600 cannot be had from"));
-  // A CSV file does not tell.
+  // A CSV file does not state its filter.
   folder.write("plain.csv", "time [s],a [N]\n0,1\n1,2\n");
   CHECK(needs_filter(read_curve(folder / "plain.csv", ""), ChannelClass::cfc60));
 }

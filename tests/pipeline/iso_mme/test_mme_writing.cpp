@@ -38,7 +38,7 @@ bool same_bits(const VectorXd& a, const VectorXd& b) {
          });
 }
 
-/// Numbers of all sizes, with zeros of both signs and the smallest and largest there are.
+/// Numbers of all magnitudes, with zeros of both signs and the smallest and largest doubles.
 VectorXd any_numbers(Eigen::Index count) {
   std::mt19937_64 random(1);
   VectorXd values(count);
@@ -92,7 +92,7 @@ TEST_CASE("what is written is read back to the last bit, and the same makes the 
         std::vector<std::string>{"lab 7.001", "lab 7.002", "lab 7.003", "lab 7.chn"});
   const std::string first = bytes_of(folder / "lab 7/Channel/lab 7.001");
   test.channels.resize(1);
-  write_mme_test(path, test);  // in its place
+  write_mme_test(path, test);  // replaces the first one
   CHECK(names_in(folder / "lab 7/Channel") == std::vector<std::string>{"lab 7.001", "lab 7.chn"});
   CHECK(bytes_of(folder / "lab 7/Channel/lab 7.001") == first);
   CHECK(names_in(folder.path()) == std::vector<std::string>{"lab 7"});
@@ -172,7 +172,7 @@ TEST_CASE("other channels have codes of a laboratory, or the code that is their 
                                           "002003000000DS00", "11NECKUP00H3MOYB",
                                           "002004000000MO00", "002005000000AN00"});
   CHECK(channels[1].name == "tip y");
-  // The last output is nearer, which equal intervals cannot say.
+  // The last output is closer, which equal intervals cannot represent.
   CHECK(channels[0].values.size() == 3);
   REQUIRE(left_out.size() == 1);
   CHECK_THAT(left_out[0], Contains("the output at 0.25 s is not carried over"));
@@ -236,7 +236,7 @@ TEST_CASE(
   const std::string bytes = bytes_of(folder / "lab/Channel/lab.001");
   REQUIRE(run_flexneck(to).exit_code == 0);
   CHECK(bytes_of(folder / "lab/Channel/lab.001") == bytes);
-  // The folder's study has gone on.
+  // The folder's study has changed since.
   REQUIRE(
       run_flexneck("mesh --set body.head.mass='4.8 kg'" + out + testing::kCoarseNeck).exit_code ==
       0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A program whose tasks do what libraries do over damaged files.
+// A program whose tasks behave like libraries on damaged files.
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -29,7 +29,7 @@ void compute(const Arguments& /*none*/, const ChildLines& /*lines*/) {
   }
 }
 
-/// Beyond the time that it had at first.
+/// Computes beyond the time limit that it had at first.
 void compute_later(const Arguments& none, const ChildLines& lines) {
   limit_what_follows(2);
   compute(none, lines);
@@ -45,7 +45,7 @@ void allocate(const Arguments& /*none*/, const ChildLines& /*lines*/) {
   while (true) blocks.emplace_back(std::size_t{1} << 20U, 'x');
 }
 
-/// Takes a page of the stack each time, which is still wanted behind the call.
+/// Uses one page of the stack per call, which must be kept since it is still needed after the call.
 int depth_below(int depth, const volatile char* above) {
   volatile char page[4096] = {};
   page[0] = static_cast<char>(above[0] + 1);
@@ -53,13 +53,13 @@ int depth_below(int depth, const volatile char* above) {
   return below + page[depth % 4096];
 }
 
-/// 4 GB of stack, if there are.
+/// Uses 4 GB of stack, if available.
 void recurse(const Arguments& /*none*/, const ChildLines& lines) {
   const char first = 0;
   lines.detail(std::to_string(depth_below(0, &first)));
 }
 
-/// 300 MB, once what is read is read.
+/// Allocates 300 MB after the input has been read.
 void allocate_later(const Arguments& /*none*/, const ChildLines& lines) {
   limit_what_follows(60);
   const std::vector<char> block(std::size_t{300} << 20U, 'x');
@@ -80,7 +80,7 @@ void crash_at_exit(const Arguments& /*none*/, const ChildLines& /*lines*/) {
   std::atexit([] { std::abort(); });
 }
 
-/// Arguments, environment and open files, as the child sees them.
+/// Prints arguments, environment and open files, as the child sees them.
 void tell(const Arguments& arguments, const ChildLines& lines) {
   std::fputs("a line without an end", stdout);
   for (const std::string& argument : arguments) lines.detail("argument " + argument);
@@ -90,7 +90,7 @@ void tell(const Arguments& arguments, const ChildLines& lines) {
   lines.warning("a part is left out");
 }
 
-/// Has a child of its own, which sleeps.
+/// Starts a child of its own, which sleeps.
 void have_child(const Arguments& /*none*/, const ChildLines& lines) {
   IsolatedTask task;
   task.name = "sleep";

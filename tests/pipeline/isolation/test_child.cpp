@@ -32,7 +32,7 @@ IsolatedTask task_named(const std::string& name) {
   return task;
 }
 
-/// What it says of a task that cannot end well.
+/// Message for a task that cannot end well.
 std::string refusal(const IsolatedTask& task) {
   const TemporaryFolder folder;
   try {
@@ -43,7 +43,8 @@ std::string refusal(const IsolatedTask& task) {
   return "accepted";
 }
 
-/// A process that has ended may still be listed until its parent has asked for it.
+/// Returns whether a process runs. One that has ended may still be listed until its parent has
+/// waited for it.
 bool is_running(const std::string& id) {
   std::ifstream file("/proc/" + id + "/stat");
   std::string text;
@@ -151,7 +152,7 @@ TEST_CASE("no child outlives its parent, and what a child leaves behind is not w
                               folder.path());
           parent.wait([&](const std::string& line) {
             if (line.size() < 3) return;
-            child = line.substr(2);  // behind the mark of a report
+            child = line.substr(2);  // after the mark of a report
             CHECK(is_running(child));
             throw InputError("the user has had enough");
           });

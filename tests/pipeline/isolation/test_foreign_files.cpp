@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Damaged files through the command: each of them crashes or hangs the library that reads it.
+// Damaged files passed to the command: each crashes or hangs the library that reads it.
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -32,7 +32,7 @@ CommandOutcome run_flexneck(const fs::path& folder, const std::string& arguments
                             testing::flexneck_program() + " -q " + arguments);
 }
 
-/// Exit code 2, one line, and nothing left in the folder for temporary files.
+/// Checks for exit code 2, one line, and no remainders in the folder for temporary files.
 void check_refused(const fs::path& folder, const std::string& arguments,
                    const std::string& reason) {
   INFO(arguments);
@@ -41,7 +41,7 @@ void check_refused(const fs::path& folder, const std::string& arguments,
     CHECK_FALSE(entry.path().filename().string().starts_with("flexneck-"));
 }
 
-/// A study of a file, or of a script, with the part `part`.
+/// Writes a study of a file, or of a script, with the part `part`.
 void write_study(const fs::path& path, const std::string& source, const std::string& part) {
   write(path, "[geometry]\n" + source +
                   "\n[geometry.materials.aluminium]\nyoungs_modulus = \"70 GPa\"\n"
@@ -49,7 +49,7 @@ void write_study(const fs::path& path, const std::string& source, const std::str
                   part + "\"]\n");
 }
 
-/// A box, and what gmsh writes of it.
+/// A box, and the commands by which gmsh writes it.
 constexpr const char* kBox = R"(
 SetFactory("OpenCASCADE");
 Box(1) = {0, 0, 0, 40, 20, 20};
@@ -128,16 +128,16 @@ TEST_CASE("a file that crashes or hangs gmsh or OpenCASCADE is refused in one li
   crossed.replace(line + 10, comma - line - 10, vector);
   refused("crossed.step", crossed, "OpenCASCADE or gmsh crashes on it (Segmentation fault)");
 
-  // OpenCASCADE looks for the end of an edge in what is not there.
+  // OpenCASCADE searches for the end of an edge in missing text.
   refused("short.brep", brep.substr(0, brep.find("\nEd\n") + 8),
           "OpenCASCADE or gmsh is not done with it after ");
 
-  // Read without complaint: an edge that is far away in the parameters of its face.
+  // The file is read without complaint: an edge is far away in the parameters of its face.
   refused("far.brep",
           with(brep, "Curve2ds 24\n1 0 0 1 0 \n1 0 0 ", "Curve2ds 24\n1 0 0 1 0 \n1 1e19 0 "),
           "OpenCASCADE or gmsh is not done with it after ");
 
-  // A block of 2^31 - 1 nodes, of which there is none.
+  // The header announces a block of 2^31 - 1 nodes, but there are none.
   std::istringstream lines(msh.substr(msh.find("$Nodes\n") + 7));
   std::string header;
   std::string block;
@@ -181,7 +181,7 @@ TEST_CASE("a mesh that a child reads, and one that a child's script makes, are w
   const CommandOutcome outcome = run_flexneck(folder.path(), "mesh again.toml -o again");
   INFO(outcome.text);
   REQUIRE(outcome.exit_code == 0);
-  // In this process, by the same calls.
+  // The same calls are made in this process.
   mesher::ImportOptions options;
   options.file = folder / "box.msh";
   options.materials = {{"aluminium", 70e9, 0.33, 2700}};
@@ -216,7 +216,7 @@ TEST_CASE("what is no regular file is refused at once, under whatever ending") {
 TEST_CASE("an HDF5 file without a hash that crashes HDF5 is refused in one line") {
   const TemporaryFolder folder;
   const fs::path files = fs::path(FLEXNECK_SOURCE_DIR) / "tests/golden/files/schema_1";
-  // The length of the first text in the file, a byte of it raised.
+  // One byte of the length of the first text in the file is increased.
   const auto damaged = [&](const std::string& name) {
     std::string bytes = bytes_of(files / name);
     const std::size_t heap = bytes.find("GCOL");

@@ -14,7 +14,7 @@ import sys
 import flexneck as fn
 from flexneck import _core
 
-# Of what has numbers: its unit, "1" of a pure number; of arrays the shape, too.
+# Documentation of numbers states their unit, "1" for a pure number; that of arrays the shape, too.
 UNIT = re.compile(r"\b(kg|m|s|Hz|N|J|Pa|rad|1|[Pp]er cent)\b|kg\^|`unit`|in another unit|SI unit|their units|rows of|"
                   r"ratings from 0 to 1|of the shape of|with its unit|multiplied")
 SHAPE = re.compile(r"\([\w ]+,[\w ,]*\)|of the shape of|a row for each|\bas columns\b")

@@ -101,7 +101,7 @@ class Stages(InFolder):
         (self.folder / "cut.fem").write_bytes((self.folder / "command.fem").read_bytes()[:-30])
         with self.assertRaisesRegex(fn.InputError, "cut.fem:.*the file ends too early"):
             fn.ModalBody.read(self.folder / "cut.fem")
-        # A folder of modes of other values is refused, as the command does.
+        # Modes in the folder made with other values are refused, as by the command.
         with self.assertWarnsRegex(fn.ResultWarning, "modes.count = 6, now with 4"):
             mesh.modes(count=4)
         with self.assertRaisesRegex(fn.InputError, "modes.h5"):
@@ -343,10 +343,11 @@ class Leaks(unittest.TestCase):
                 call()
             return [after - was for after, was in zip(in_use(), before)]
         more()  # fills what is kept for good
-        # Caches of Python still fill now and then; a leak shows in each repetition.
+        # Python's caches still grow now and then; a leak shows in each repetition.
         more_bytes, more_blocks = (min(each) for each in zip(more(), more(), more()))
         print(f"{self.COUNT} calls, {more_bytes} bytes and {more_blocks} blocks of Python more")
-        # The C library keeps some that are free for each thread. A leak of 16 bytes a call shows in 10^4.
+        # The C library keeps some free memory for each thread. A leak of 16 bytes a call shows in
+        # 10^4.
         self.assertLess(more_bytes, 100_000)
         self.assertLess(more_blocks, 100)
 

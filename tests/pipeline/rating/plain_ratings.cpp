@@ -30,7 +30,7 @@ double plain_corridor(const Samples& t, const Samples& c) {
   return sum / size_of(t);
 }
 
-/// Parts of both curves when the computed one comes `shift` samples late.
+/// Overlapping parts of both curves if the computed one is `shift` samples late.
 void cut(const Samples& t, const Samples& c, int shift, Samples& left_t, Samples& left_c) {
   left_t.clear();
   left_c.clear();
@@ -77,7 +77,7 @@ PlainShift plain_shift(const Samples& t, const Samples& c, bool about_mean) {
   return best;
 }
 
-/// Sum of |c - t| over that of |t| on the warped pair.
+/// Sum of |c - t| over that of |t| for the warped pair.
 double plain_warped_error(const Samples& t, const Samples& c) {
   const int n = size_of(t);
   const int band = (n + 9) / 10;  // n / 10, rounded up

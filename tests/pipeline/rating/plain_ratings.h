@@ -5,7 +5,7 @@
 
 namespace flexneck::testing {
 
-/// Samples as the second implementation has them: it shares nothing with the one it checks.
+/// Samples in the second implementation, which shares nothing with the one that it checks.
 using Samples = std::vector<double>;
 
 struct PlainIso18571 {
@@ -13,8 +13,8 @@ struct PlainIso18571 {
   int shift;
 };
 
-/// ISO/TS 18571 by its definition, every sum written out: each correlation with its own means, the
-/// whole matrix of the warping, its path traced back from the end. Work n^2, memory n^2.
+/// ISO/TS 18571 by its definition, with every sum written out: each correlation with its own means,
+/// the whole matrix of the warping, its path traced back from the end. Work n^2, memory n^2.
 PlainIso18571 plain_iso18571(const Samples& reference, const Samples& computed);
 
 struct PlainCora {

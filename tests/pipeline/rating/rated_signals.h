@@ -13,7 +13,7 @@ namespace flexneck::testing {
 
 inline Samples samples(const Eigen::VectorXd& curve) { return {curve.begin(), curve.end()}; }
 
-/// sin^2 between two samples, zero elsewhere.
+/// A pulse sin^2 between two samples, zero elsewhere.
 inline Eigen::VectorXd pulse(Eigen::Index count, double begin, double end) {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(count);
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -28,9 +28,9 @@ inline Eigen::VectorXd sine(Eigen::Index count, double periods) {
   return Eigen::VectorXd::LinSpaced(count, 0, end).array().sin();
 }
 
-/// From 1 up by 1e-5 a sample: so flat that warping gains nothing. Moving the path by s samples
-/// makes the differences d less by 1e-5 s over n samples, but adds s pairs of a cost of d^2:
-/// nothing is gained while 2 n 1e-5 < d.
+/// A ramp from 1 up by 1e-5 per sample: so flat that warping has no advantage. Moving the path by s
+/// samples reduces the differences d by 1e-5 s over n samples, but adds s pairs of a cost of d^2:
+/// there is no advantage while 2 n 1e-5 < d.
 inline Eigen::VectorXd flat_ramp(Eigen::Index count) {
   return Eigen::VectorXd::LinSpaced(count, 1, 1 + 1e-5 * static_cast<double>(count - 1));
 }

@@ -60,7 +60,7 @@ TEST_CASE("CORA of a pure shift: the phase goes from 1 to 0 between D_MIN and D_
     const CoraRating rating = rate_cora(reference, pulse(kCount, 250 + late, 700 + late));
     INFO(late);
     CHECK(rating.shift == late);
-    // Shares of the interval, 1000 steps long.
+    // Fractions of the interval, which is 1000 steps long.
     const double phase = std::clamp((0.12 - std::abs(late) / 1000.0) / 0.11, 0.0, 1.0);
     CHECK(std::abs(rating.phase - phase) < kClosedForm);
     CHECK(std::abs(rating.progression - 1) < kClosedForm);
@@ -72,7 +72,7 @@ TEST_CASE("CORA of a pure shift: the phase goes from 1 to 0 between D_MIN and D_
 TEST_CASE("CORA of the opposite has no progression") {
   const VectorXd reference = flat_ramp(300);
   const CoraRating rating = rate_cora(reference, -reference);
-  // About zero the correlation is -1 at any shift.
+  // The correlation about zero is -1 at any shift.
   CHECK(std::abs(rating.correlation + 1) < 1e-4);
   CHECK(rating.progression < kClosedForm);
   CHECK(rating.corridor == 0);
@@ -100,14 +100,15 @@ TEST_CASE("two implementations of CORA agree") {
 }
 
 TEST_CASE("CORA finds its interval of evaluation") {
-  // sin^2 comes to 0.03 at asin(sqrt(0.03)) / pi = 0.0554115 of the pulse, to 0.075 at 0.0883195
-  // from its end: 100 + 800 * 0.0554 = 144.3 and 900 - 800 * 0.0883 = 829.3. Each end then goes
-  // out by 0.01 of the 684 samples between.
+  // sin^2 reaches 0.03 at asin(sqrt(0.03)) / pi = 0.0554115 of the pulse, and 0.075 at 0.0883195
+  // from its end: 100 + 800 * 0.0554 = 144.3 and 900 - 800 * 0.0883 = 829.3. Each end is then moved
+  // outwards by 0.01 of the 684 samples between.
   const SampleRange range = cora_interval(pulse(1000, 100, 900));
   CHECK(range.first == 145 - 6);
   CHECK(range.last == 829 + 6);
 
-  // A last value that stays: up to where it comes within 0.2 of it, 0.8 of a ramp from 100 to 600.
+  // With a constant last value the interval ends where the curve comes within 0.2 of it, at 0.8 of
+  // a ramp from 100 to 600.
   VectorXd ramp = VectorXd::Ones(1000);
   for (Index k = 0; k < 1000; ++k)
     ramp[k] = std::clamp((static_cast<double>(k) - 100) / 500, 0.0, 1.0);
@@ -117,7 +118,7 @@ TEST_CASE("CORA finds its interval of evaluation") {
   CHECK(shortened.first == 115);
   CHECK(std::abs(shortened.last - 500) <= 1);
 
-  // Nothing would be left of a curve that hardly changes.
+  // The interval of a curve that hardly changes would be empty, so the whole curve is used.
   const SampleRange whole = cora_interval(flat_ramp(200));
   CHECK(whole.first == 0);
   CHECK(whole.last == 199);

@@ -20,8 +20,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kClosedForm = 1e-6;       // of constructed signals
-constexpr double kImplementations = 1e-9;  // of two that add up in another order
+constexpr double kClosedForm = 1e-6;       // for constructed signals
+constexpr double kImplementations = 1e-9;  // for two that add in different order
 
 void check_agree(const VectorXd& reference, const VectorXd& computed) {
   const Iso18571Rating rating = rate_iso18571(reference, computed);
@@ -38,7 +38,8 @@ void check_agree(const VectorXd& reference, const VectorXd& computed) {
 
 TEST_CASE("ISO/TS 18571 gives a curve that is compared with itself 1 in every part") {
   std::mt19937 random(1);
-  // A sine of many periods fits itself a period late, too: the shift by the fewest samples counts.
+  // A sine of many periods also fits when shifted by a period: the shift by the fewest samples
+  // counts.
   for (const VectorXd& curve : {sine(600, 10), sine(401, 7.5), flat_ramp(200), pulse(300, 40, 190),
                                 random_smooth(500, random)}) {
     for (const double unit : {1.0, 1e-200, -3e200}) {
@@ -54,8 +55,8 @@ TEST_CASE("ISO/TS 18571 gives a curve that is compared with itself 1 in every pa
 }
 
 TEST_CASE("ISO/TS 18571 of a constant offset") {
-  // T is 1 but for the flat ramp, the largest |T| is N, C = T + d: all distances are d, and so are
-  // all differences on the diagonal. The slopes are the same, and so is the shape.
+  // T is 1 except for the flat ramp, the largest |T| is N, C = T + d: all distances are d, and so
+  // are all differences on the diagonal. The slopes are equal, and so is the shape.
   const VectorXd reference = flat_ramp(100);
   const double norm = reference.maxCoeff();
   for (const double offset : {0.04, 0.1, 0.2, -0.3, 0.6}) {
@@ -87,14 +88,14 @@ TEST_CASE("ISO/TS 18571 of a scaled amplitude") {
     CHECK(rating.phase == 1);
     CHECK(std::abs(rating.magnitude - (1 - 2 * q)) < kClosedForm);
     CHECK(std::abs(rating.slope - (1 - q / 2)) < kClosedForm);
-    // The slope of any curve that is scaled about its own shape.
+    // The slope rating is the same for any curve compared with a multiple of itself.
     const VectorXd wave = sine(500, 2);
     CHECK(std::abs(rate_iso18571(wave, (1 + more) * wave).slope - (1 - q / 2)) < kClosedForm);
   }
 }
 
 TEST_CASE("ISO/TS 18571 of a pure shift") {
-  // A pulse that is zero at both ends: after the shift the curves are the same.
+  // A pulse that is zero at both ends: after the shift the curves are equal.
   constexpr Index kCount = 1000;
   const VectorXd reference = pulse(kCount, 250, 700);
   for (const int late : {0, 1, 7, -7, 60, -150, 199}) {
@@ -106,7 +107,7 @@ TEST_CASE("ISO/TS 18571 of a pure shift") {
     CHECK(std::abs(rating.magnitude - 1) < kClosedForm);
     CHECK(std::abs(rating.slope - 1) < kClosedForm);
   }
-  // At a fifth of the length nothing is left of the phase, and no shift goes beyond.
+  // At a fifth of the length the phase rating is zero, and shifts do not exceed it.
   CHECK(rate_iso18571(reference, pulse(kCount, 450, 900)).phase == 0);
   CHECK(rate_iso18571(reference, pulse(kCount, 500, 950)).shift == 200);
 }
@@ -127,7 +128,7 @@ TEST_CASE("two implementations of ISO/TS 18571 agree where ties are many") {
   for (int repeat = 0; repeat < 40; ++repeat) {
     const Index count = 120 + 11 * repeat;
     CAPTURE(repeat, count);
-    // Few levels, exact in binary: plateaus on which many paths cost the same.
+    // The curves have few levels, exact in binary: plateaus on which many paths cost the same.
     const VectorXd reference = (2 * random_smooth(count, random).array()).round().matrix() / 4;
     const VectorXd computed = (2 * random_smooth(count, random).array()).round().matrix() / 4;
     check_agree(reference, computed);

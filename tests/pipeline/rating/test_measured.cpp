@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests of a study with measured curves, corridors and limits.
+// Tests in a study with measured curves, corridors and limits.
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -20,7 +20,8 @@ using Eigen::VectorXd;
 
 constexpr double kDeg = std::numbers::pi / 180;
 
-/// A head rotation of 60 deg at 50 ms that is back at 100 ms, from 0 to 200 ms.
+/// A history with a head rotation of 60 deg at 50 ms that is back at zero at 100 ms, from 0 to 200
+/// ms.
 multibody::HistoryFile half_waves() {
   multibody::HistoryFile run;
   run.history.time_s = VectorXd::LinSpaced(401, 0, 0.2);
@@ -31,7 +32,7 @@ multibody::HistoryFile half_waves() {
 
 class OwnTest {
  public:
-  /// A line for each half of a millisecond: head rotation of half_waves() times a factor, shifted.
+  /// Writes a line every half millisecond: head rotation of half_waves() times a factor, shifted.
   void write_curve(const std::string& name, double factor, double zero_ms,
                    const std::string& head = "time [ms],phi [deg]\n") const {
     std::ofstream file(folder_ / name);
@@ -43,7 +44,7 @@ class OwnTest {
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
   }
-  /// The same as the only channel of a test of ISO-MME, from -10 ms to 200 ms.
+  /// Writes that curve as the only channel of an ISO-MME test, from -10 ms to 200 ms.
   void write_channel(const std::string& name, char filter) const {
     MmeTest test;
     VectorXd values(421);
@@ -58,7 +59,7 @@ class OwnTest {
                                           << tables;
     const Study study = read_study(folder_ / "study.toml", {});
     REQUIRE(study.measured.size() == 1);
-    CHECK(study.tests.size() == 4);  // those of regulations are the study's
+    CHECK(study.tests.size() == 4);  // the study has those of regulations
     return {study.measured.front(), half_waves()};
   }
   void refuses(const std::string& tables, const std::string& reason) const {
@@ -83,7 +84,7 @@ TEST_CASE("a measured curve is laid over the case's time and rated") {
   CHECK(table.rows[0] == std::vector<std::string>{"lab", "flexion-60", "head rotation",
                                                   "lab.csv: phi", "0.0", "200.0", "1.000",
                                                   "1.000"});
-  // Without it the curve is late by an eighth of the wave: C is rated less.
+  // Without time_zero the curve is late by an eighth of the wave: C is rated lower.
   const ResultTable late = measured_curve_table({own.read(kCurve)});
   CHECK(late.rows[0][4] == "12.5");
   CHECK(std::stod(late.rows[0][6]) < 0.8);
@@ -91,7 +92,7 @@ TEST_CASE("a measured curve is laid over the case's time and rated") {
       {own.read(kCurve + "time_zero = \"12.5 ms\"\nfrom = \"20 ms\"\nto = \"90 ms\"\n")});
   CHECK(cut.rows[0][4] == "20.0");
   CHECK(cut.rows[0][5] == "90.0");
-  // No run yet: told, not rated.
+  // A test without a run is listed, but not rated.
   const ResultTable none = measured_curve_table({{same.test, {}}});
   CHECK(none.rows.empty());
   CHECK_THAT(none.notes.front(), Contains("There is no run of flexion-60 yet"));

@@ -25,7 +25,7 @@ std::array<NijPeak, 4> nij_of(const VectorXd& force_N, const VectorXd& moment_Nm
 
 TEST_CASE("Nij of constant loads, which a filter passes, is their sum over the intercepts") {
   const auto constant = [](double value) { return VectorXd(VectorXd::Constant(500, value)); };
-  // Half and a quarter of the intercepts, with the signs of each combination.
+  // Loads are half and a quarter of the intercepts, with the signs of each combination.
   const std::array<std::pair<double, double>, 4> loads = {{{6806 / 2.0, -135 / 4.0},
                                                            {6806 / 2.0, 310 / 4.0},
                                                            {-6160 / 2.0, -135 / 4.0},
@@ -42,8 +42,9 @@ TEST_CASE("Nij of constant loads, which a filter passes, is their sum over the i
 }
 
 TEST_CASE("Nij of a slow swing takes each combination in its quarter") {
-  // Force cos, moment sin of the same angle, one turn in 0.4 s: F cos + M sin of its quarter is at
-  // most sqrt(a^2 + b^2), a and b the amplitudes over the intercepts. CFC 600 passes 2.5 Hz.
+  // The force is a cosine and the moment a sine of the same angle, one turn in 0.4 s: in its
+  // quarter F cos + M sin is at most sqrt(a^2 + b^2), with a and b the amplitudes over the
+  // intercepts. CFC 600 passes 2.5 Hz.
   const VectorXd angle = VectorXd::LinSpaced(4001, 0, 2 * std::numbers::pi);
   const auto peaks = nij_of(1000 * angle.array().cos(), 40 * angle.array().sin());
   const std::array<double, 4> expected = {

@@ -26,8 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr double kInterval_s = 1e-4;
 
-/// Columns over the time from zero on.
-/// @param head  line of names; none if empty
+/// CSV text of columns over the time from zero on.
 std::string table(const std::string& head, const std::vector<VectorXd>& columns,
                   double interval = kInterval_s) {
   std::string text = head.empty() ? "" : head + "\n";
@@ -52,12 +51,12 @@ class RatedFolder {
   void write(const std::string& name, const std::string& text) const {
     testing::write_test_file(folder_ / name, text);
   }
-  /// In the folder, so that files are named as they are.
+  /// Runs the command in the folder, so that files keep their plain names.
   CommandOutcome run(const std::string& arguments) const {
     return run_shell("(cd " + folder_.path().string() + "; " + flexneck_program() + " " +
                      arguments + ")");
   }
-  /// With another computed curve.
+  /// Checks that another computed curve is refused.
   void refuses(const std::string& text, const std::string& reason,
                const std::string& options = "") const {
     write("bad.csv", text);
@@ -103,7 +102,7 @@ TEST_CASE("'flexneck rate' prints each part of both ratings, and writes only whe
   CHECK(json.at("provenance").at("inputs").contains("computed/computed.csv"));
   CHECK_THAT(folder.run("info out/rating.json").text, Contains("overall R"));
 
-  // Files of the same name in two folders.
+  // Two files have the same name in two folders.
   fs::create_directory(folder.path("other"));
   folder.write("other/computed.csv", bytes_of(folder.path("computed.csv")));
   CHECK_THAT(folder.run("rate computed.csv other/computed.csv").text,
@@ -120,7 +119,8 @@ TEST_CASE("'flexneck rate' takes columns by name, other units and plain files") 
     for (const auto& each : json.at("tables")) text += each.at("rows").dump();
     return text;
   };
-  // Degrees over milliseconds, among others, one of which has a comma in its name.
+  // The curve is in degrees over milliseconds, beside other columns, one of which has a comma in
+  // its name.
   const double degrees = 45 / std::atan(1);
   folder.write("many.csv", table("time [ms],\"Fx, upper [N]\",phi [deg]",
                                  {RatedFolder::reference(), degrees * RatedFolder::computed()},
@@ -166,7 +166,7 @@ TEST_CASE("'flexneck rate' rates the interval that it is told, or what both curv
 
 TEST_CASE("'flexneck rate' resamples to 10 kHz, and says so") {
   const RatedFolder folder;
-  // A ramp is the same at any sampling: a thousand samples a second suffice.
+  // A ramp is the same for any sampling: a thousand samples per second suffice.
   const auto ramp = [](Eigen::Index count) {
     return table("time [s],F [N]", {VectorXd::LinSpaced(count, 0, 1)},
                  0.1 / static_cast<double>(count - 1));
@@ -228,7 +228,7 @@ TEST_CASE("'flexneck rate' refuses bad input in one line that says where") {
   check_refused(folder.run("info reference.csv --channel a"),
                 "--channel belongs to the command rate");
   check_refused(folder.run("rate reference.csv computed.csv -o ''"), "expected a folder");
-  // Nothing is left of a refused command.
+  // A refused command leaves no files.
   check_refused(folder.run("rate zero.csv computed.csv -o none"), "constant");
   CHECK_FALSE(fs::exists(folder.path("none")));
 }
@@ -305,7 +305,7 @@ TEST_CASE("'flexneck nij' filters no load a second time that has passed CFC 600 
 TEST_CASE("'flexneck nij' gives the four combinations of loads in a file") {
   const RatedFolder folder;
   const auto constant = [](double value) { return VectorXd(VectorXd::Constant(400, value)); };
-  // In other units; half an intercept each: 6806 N / 2, -135 N m / 2.
+  // Loads in other units; half an intercept each: 6806 N / 2, -135 N m / 2.
   const double lbf = 4.4482216152605;
   folder.write("loads.csv", table("time [ms],Fz [lbf],My [N*m],Fx [kN]",
                                   {constant(3403 / lbf), constant(-67.5), constant(1)}, 0.1));
@@ -317,7 +317,7 @@ TEST_CASE("'flexneck nij' gives the four combinations of loads in a file") {
                                Contains("Nij      1.000000") &&
                                Contains("not defined for pendulum"));
   CHECK(names_in(folder.path("out")) == std::vector<std::string>{"nij.json"});
-  // The arm of 17.78 mm: -67.5 N m - 17.78 N m.
+  // The shear force has an arm of 17.78 mm: -67.5 N m - 17.78 N m.
   CHECK_THAT(folder.run(command + " --shear Fx").text,
              Contains(fmt::format("{:.6f}", 0.5 + 85.28 / 135)));
   CHECK_THAT(folder.run(command + " --dummy 5th-female").text,

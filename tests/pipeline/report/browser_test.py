@@ -31,7 +31,7 @@ except ImportError as error:
     print(f"SKIPPED: {error}; install python3-selenium and python3-h5py")
     sys.exit(SKIPPED)
 
-# The coarsest neck: what the page shows does not depend on it.
+# The coarsest neck: the page does not depend on the mesh.
 COARSE = ["mesh.quadrant=2", "mesh.inner_ring=2", "mesh.outer_ring=1", "mesh.rubber_layers=1",
           "geometry.bolt_patch_radius=0.4 in"]
 WAIT_S = 60  # a busy machine draws slowly; nothing depends on the time taken
@@ -352,7 +352,7 @@ class Report(Page, unittest.TestCase):
             values = file["channels/head rotation/values"][:, 0]
         nearest = abs(times - time_ms / 1000).argmin()
         around = [math.degrees(values[k]) for k in (nearest - 1, nearest, nearest + 1)]
-        # The reading has four digits, so the neighbours of the nearest time come into question.
+        # The reading has four digits, so the neighbours of the nearest time are possible, too.
         self.assertLess(min(abs(rotation_deg - each) for each in around),
                         2e-3 * max(abs(each) for each in around))
 
@@ -427,7 +427,7 @@ class Report(Page, unittest.TestCase):
             self.choose_units("customary")
         self.assertEqual(self.cells("peaks"), before)
 
-    # --- what can be taken along ------------------------------------------------------------------
+    # --- downloads --------------------------------------------------------------------------------
 
     def test_curves_are_saved_as_they_are_drawn(self):
         path = self.saved(self.plot().find_element(By.CSS_SELECTOR, "[data-save=csv]"), "csv")

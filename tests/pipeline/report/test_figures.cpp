@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A variable of the environment for a while.
+/// Sets a variable of the environment during its scope.
 class Variable {
  public:
   Variable(const char* name, const std::string& value) : name_(name) {

@@ -95,7 +95,7 @@ TEST_CASE("corridors stand behind the curves of the cases that are judged by the
   const auto moment = corridors_at("extension-120-part572", "load cell moment");
   REQUIRE(moment.size() == 2);
   CHECK(moment[0].values.low == Approx(-59 * 1.3558179483));  // lbf ft
-  // Neither at another velocity nor of another dummy.
+  // There are no corridors at another velocity or for another dummy.
   CHECK(corridors_at("flexion-120", "head rotation", {"case.flexion-120.impact_velocity=200 in/s"})
             .empty());
   CHECK(corridors_at("flexion-120", "head rotation", {"dummy.name=Hybrid III 5th female"}).empty());

@@ -108,7 +108,8 @@ TEST_CASE("files that cannot be trusted become warnings, files that are not ther
              "tables": [{"name": "a", "title": "", "columns": [], "rows": [["1"]], "notes": []}]})";
   write_tables(folder / "one.json", {small_table()}, made_by("one"));
   write_tables(folder / "two.json", {small_table()}, made_by("two"));
-  write_tables(folder / kComparisonTables, {small_table()}, made_by("two"));  // of other folders
+  write_tables(folder / kComparisonTables, {small_table()}, made_by("two"));  // tables of other
+                                                                              // folders
   multibody::HistoryFile other = small_run(3);
   other.provenance.parameters.front().value = "something else";
   multibody::write_history(folder / "pendulum-flexion-60.h5", other);
@@ -153,7 +154,7 @@ TEST_CASE("verdicts of certification tests come first, each with a sign of its o
   const std::string page = page_of(folder.path());
   const std::size_t certification = page.find("<section id=\"certification\"");
   REQUIRE(certification != std::string::npos);
-  // After the first screen, which has them in short.
+  // The section comes after the first screen, which summarises it.
   CHECK(page.find("<section ") == page.find("<section id=\"view\""));
   CHECK(page.find("<section ", page.find("<section ") + 1) == certification);
   const std::string first_screen = page.substr(0, certification);

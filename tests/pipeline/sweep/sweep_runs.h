@@ -45,7 +45,7 @@ inline void require_done(const std::string& arguments) {
   REQUIRE(outcome.exit_code == 0);
 }
 
-/// The files of a table, one after the other.
+/// The files of a table, concatenated.
 inline std::string table_in(const std::filesystem::path& out) {
   std::string bytes;
   for (const char* const name : {"sweep.csv", "sweep.h5", "sweep.json",

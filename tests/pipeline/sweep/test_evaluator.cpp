@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Figures of a study with other values against the files that the commands write for them.
+// Outputs of a study with other values, against the files that the commands write.
 #include <cmath>
 #include <numbers>
 
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 const std::string kDamping = "body.neck.damping_ratio=0.5";
 const std::string kMass = "body.head.mass=\"5 kg\"";
 
-/// One for all tests: PETSc and the console are one in a process.
+/// The evaluator of all tests: a process can have only one PETSc and one console.
 Evaluator& evaluator() {
   static const TemporaryFolder folder;
   static const Console console(Verbosity::quiet);
@@ -34,7 +34,7 @@ Evaluator& evaluator() {
   return one;
 }
 
-/// What the commands leave of the study with both settings.
+/// Runs the commands on the study with both settings.
 void run_commands(const fs::path& study, const fs::path& out) {
   const testing::CommandOutcome outcome =
       testing::run_flexneck("run " + study.string() + " -o " + out.string() + " --set " + kDamping +
@@ -66,7 +66,7 @@ TEST_CASE("an evaluation gives the figures of the files that 'run' writes") {
   CHECK(found.figures[0] == body.invariants.mass);
   CHECK(found.figures[1] == body.frequencies_Hz[body.mode_index("fore-aft bending 2")]);
   CHECK(found.figures[2] == body.attached.front().frequencies_Hz[0]);
-  // The filtered channels make the run the very same.
+  // The filtered channels are part of the same run.
   CHECK(found.figures[3] == result.head_rotation.value);
   CHECK(found.figures[4] == result.occipital_moment.time_s);
   CHECK(found.figures[5] == result.head_acceleration.value);
@@ -85,7 +85,7 @@ TEST_CASE("a run without filtered channels has the same unfiltered ones") {
   };
   const std::vector<Eigen::VectorXd> fast = curves_with({"pendulum.far.neck_rotation"});
   const std::vector<Eigen::VectorXd> dense = curves_with({"pendulum.far.head_acceleration"});
-  // The same steps; the times of outputs differ by rounding.
+  // Both runs have the same steps; the times of outputs differ by rounding.
   for (std::size_t k = 0; k < 2; ++k) {
     REQUIRE(fast[k].size() == dense[k].size());
     CHECK((fast[k] - dense[k]).cwiseAbs().maxCoeff() < 1e-9 * dense[k].cwiseAbs().maxCoeff());
@@ -94,7 +94,7 @@ TEST_CASE("a run without filtered channels has the same unfiltered ones") {
 
 TEST_CASE("modes are computed once for all that share their values") {
   const WantedOutputs wanted = evaluator().wanted({"pendulum.flexion.system_frequency"}, {});
-  const std::string own = "modes.count=2";  // of no other test
+  const std::string own = "modes.count=2";  // used by no other test
   const auto solved = [&, before = evaluator().solved_count()] {
     return evaluator().solved_count() - before;
   };
@@ -106,7 +106,7 @@ TEST_CASE("modes are computed once for all that share their values") {
   for (const char* const count : {"2", "3", "2", "3"})
     evaluator().evaluate({std::string("modes.count=") + count}, wanted);
   CHECK(solved() == 2);
-  // The head takes part in the frequencies with it attached.
+  // The attached head affects these frequencies.
   const WantedOutputs attached = evaluator().wanted({"modes.system_frequency"}, {});
   for (const char* const mass : {"4 kg", "5 kg", "4 kg"})
     evaluator().evaluate({own, std::string("body.head.mass=\"") + mass + "\""}, attached);
@@ -119,7 +119,7 @@ TEST_CASE("a static test has its stiffness, and a verdict its figures") {
                           "verdict.certified.peak_rotation", "verdict.certified.figures_inside"},
                          {});
   const Evaluation found = evaluator().evaluate({}, wanted);
-  // Small motions by the modes alone: M = F L, theta = F sum(mu_y psi_x / omega^2) at the top.
+  // Small static motions by the modes: M = F L, theta = F sum(mu_y psi_x / omega^2) at the top.
   const TemporaryFolder folder;
   const fs::path path = testing::write_beam_study(folder.path());
   run_commands(path, folder / "out");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points of the unit cube and distributions against what defines them.
+// Points of the unit cube and distributions, against their definitions.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -22,7 +22,7 @@ using Kind = SweepDistribution::Kind;
 
 namespace {
 
-/// How many points there are in each of `parts` equal parts of a coordinate.
+/// Number of points in each of `parts` equal parts of a coordinate.
 std::vector<int> counts_in_parts(const UnitPoints& points, int coordinate, int parts) {
   std::vector<int> counts(static_cast<std::size_t>(parts), 0);
   for (std::uint64_t row = 0; row < points.row_count(); ++row) {
@@ -102,7 +102,7 @@ TEST_CASE("a Latin hypercube has one sample in each part of each coordinate") {
 TEST_CASE("the first 2^m points of the shifted Sobol' sequence are evenly spread") {
   const UnitPoints points{SweepPlan::sobol, 256, 5, 3};
   for (int k = 0; k < 5; ++k) CHECK(all_are(counts_in_parts(points, k, 256), 1));
-  // Of the first two coordinates, each of 16 x 16 squares has one point.
+  // In the first two coordinates each of 16 x 16 squares has one point.
   std::vector<int> squares(256, 0);
   for (std::uint64_t row = 0; row < 256; ++row) {
     const VectorXd point = points.point(row);
@@ -138,7 +138,7 @@ TEST_CASE("a seed gives other points, the same seed the same") {
 }
 
 TEST_CASE("distributions have the moments of their closed forms") {
-  constexpr double kRule = 1e-4;  // of the midpoint rule in the tails
+  constexpr double kRule = 1e-4;  // error of the midpoint rule in the tails
   const auto check = [&](const SweepDistribution& distribution, double mean, double deviation) {
     const auto [found_mean, found_deviation] = moments(distribution);
     CHECK(found_mean == Approx(mean).epsilon(kRule));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Estimates of sensitivity against closed forms: no study takes part.
+// Estimates of sensitivity against closed forms, without a study.
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -46,7 +46,8 @@ bool holds(const Estimate& estimate, double truth) {
 
 double width(const Estimate& estimate) { return estimate.interval.high - estimate.interval.low; }
 
-/// Ishigami and Homma (1990): sin x1 + a sin^2 x2 + b x3^4 sin x1, x uniform from -pi to pi.
+/// Function of Ishigami and Homma (1990): sin x1 + a sin^2 x2 + b x3^4 sin x1, x uniform from -pi
+/// to pi.
 constexpr double kA = 7;
 constexpr double kB = 0.1;
 double ishigami(const VectorXd& u) {
@@ -55,7 +56,7 @@ double ishigami(const VectorXd& u) {
   return std::sin(x[0]) + kA * sine * sine + kB * std::pow(x[2], 4) * std::sin(x[0]);
 }
 
-/// Sobol' (1993): the product of (|4 u_i - 2| + a_i) / (1 + a_i).
+/// Function of Sobol' (1993): the product of (|4 u_i - 2| + a_i) / (1 + a_i).
 const std::vector<double> kG = {0, 1, 4.5, 9};
 double g_function(const VectorXd& u) {
   double product = 1;
@@ -113,8 +114,8 @@ TEST_CASE("indices of an output that does not vary are not numbers") {
 }
 
 TEST_CASE("Shapley effects of correlated inputs are within their confidence") {
-  // y = b1 z1 + b2 z2 + b3 z3 with z3 independent. Owen and Prieur (2017), for the two that are
-  // correlated: b_i^2 (1 - r^2 / 2) + b_j^2 r^2 / 2 + b1 b2 r.
+  // y = b1 z1 + b2 z2 + b3 z3 with z3 independent. Shapley effects of the two correlated inputs,
+  // Owen and Prieur (2017): b_i^2 (1 - r^2 / 2) + b_j^2 r^2 / 2 + b1 b2 r.
   constexpr double kR = 0.7;
   constexpr double b[] = {2, 1, 0.5};
   SweepSection sweep;
@@ -160,6 +161,6 @@ TEST_CASE("rank correlation is that of ranks, with ties and rows that failed") {
   const VectorXd found = rank_correlations(inputs, output);
   CHECK(found[0] == Approx(1));
   CHECK(found[1] == Approx(-1));
-  // Ranks 1.5 1.5 3.5 3.5 5 against 1 2 3 4 5: sums of squares 9 and 10, of products 9.
+  // Ranks 1.5 1.5 3.5 3.5 5 against 1 2 3 4 5: sums of squares 9 and 10, sum of products 9.
   CHECK(found[2] == Approx(9 / std::sqrt(90.0)));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A study that is read again with other values against one that is read anew.
+// A study read again with other values, against one read from scratch.
 #include <catch2/catch.hpp>
 
 #include "geometry/foundation/error.h"
@@ -10,7 +10,7 @@ using namespace flexneck::pipeline;
 
 namespace {
 
-/// Without tests and cases, of which those that are not chosen are not recorded again.
+/// Text of parameters without tests and cases: those that are not chosen are not recorded again.
 std::string text_of(const std::vector<Parameter>& parameters) {
   std::string text;
   for (const Parameter& each : parameters)
@@ -41,7 +41,7 @@ TEST_CASE("a study that is read again with other values is the one that is read 
     check_same(reader.read({damping, duration}),
                read_study(built_in_study(), {base[0], damping, duration}));
   }
-  // Other keys, and none: nothing is left of those before.
+  // With other keys, or none, those of the reading before have no effect.
   check_same(reader.read({"solver.relative_tolerance=1e-7"}),
              read_study(built_in_study(), {base[0], "solver.relative_tolerance=1e-7"}));
   check_same(reader.read({}), read_study(built_in_study(), base));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// 'flexneck sweep' as users run it: shared out, killed, stopped, on a full disk.
+// Tests of 'flexneck sweep': sharded, killed, stopped, on a full disk.
 #include <chrono>
 #include <fstream>
 
@@ -23,7 +23,7 @@ TEST_CASE("a sweep is the same to the last bit with any threads and shards") {
   const std::string table = table_in(folder / "one");
   CHECK(table_in(folder / "two") == table);
   CHECK(table_in(folder / "shards") == table);
-  // Nothing is left to do, and nothing changes.
+  // Nothing remains to be computed, and the results do not change.
   require_done(sweep(study, folder / "shards"));
   CHECK(table_in(folder / "shards") == table);
   CHECK(lines_of(bytes_of(folder / "one/sweep.csv")).size() == 61);
@@ -55,7 +55,7 @@ TEST_CASE("twenty kills leave the same table") {
         run_shell("timeout -s KILL " + std::to_string(share * whole.count()) + " " +
                   testing::flexneck_program() + " " + sweep(study, folder / "killed"));
     killed += outcome.exit_code == 137 ? 1 : 0;
-    // So that there is something left to be killed.
+    // Start anew, so that there is a run to be killed.
     if (outcome.exit_code == 0) fs::remove_all(folder / "killed");
   }
   CHECK(killed > 3);
@@ -89,14 +89,14 @@ TEST_CASE("other values begin a sweep anew, and say so") {
 }
 
 TEST_CASE("Ctrl-C keeps what is done") {
-  // In the foreground, timeout signals the command only, and once.
+  // With --foreground, timeout signals only the command, and once.
   const TemporaryFolder folder;
   const fs::path study = testing::write_beam_study(
       folder.path(),
       small_sweep("key = \"body.neck.damping_ratio\"\ndistribution = \"uniform\"\n"
                   "from = 0.5\nto = 0.9\n",
                   R"("pendulum.far.head_acceleration")", "plan = \"random\"\nsamples = 100000"));
-  // A busy machine may need longer to its first rows.
+  // A busy machine may need longer until its first rows.
   testing::CommandOutcome outcome;
   std::size_t lines = 0;
   for (const char* const seconds : {"1.5", "6", "24"}) {
@@ -116,7 +116,7 @@ TEST_CASE("a disk that fills up ends a sweep with one line, and then it goes on"
   const TemporaryFolder folder;
   const fs::path study = testing::write_beam_study(folder.path(), kHypercube);
   require_done(sweep(study, folder / "whole"));
-  // A file may have 2 kB: that stands for the disk.
+  // A limit of 2 kB per file simulates a full disk.
   const testing::CommandOutcome outcome =
       run_shell("sh -c 'ulimit -f 4; exec " + testing::flexneck_program() + " -q " +
                 sweep(study, folder / "full") + "'");
@@ -141,7 +141,7 @@ TEST_CASE("a sweep has its pictures, and the report shows them with the tables")
   const std::string page = bytes_of(folder / "out/report.html");
   CHECK_THAT(page, Contains("Parameters varied") && Contains("Outputs over all rows") &&
                        Contains("Percentiles of all rows: pendulum.flexion.occipital-moment"));
-  // Nothing of the page is left of outputs that a later sweep has not.
+  // Figures of outputs that a later sweep does not have are removed from the page.
   require_done(sweep(study, folder / "out",
                      "--set 'sweep.outputs=[\"modes.mass\", "
                      "\"pendulum.flexion.head_rotation\"]'"));
@@ -192,7 +192,7 @@ values = [7000, 28000]
   return folder / "bar.toml";
 }
 
-/// The frequency in a row of sweep.csv: the last cell but the problem's.
+/// The frequency in a row of sweep.csv, in the last cell but one; the last is the problem.
 double frequency_Hz(const fs::path& out, std::size_t row) {
   const std::string line = lines_of(bytes_of(out / "sweep.csv")).at(1 + row);
   std::istringstream cells(line);

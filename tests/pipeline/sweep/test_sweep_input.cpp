@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a sweep may say, what it makes of it, and what it refuses.
+// Input of a sweep: what is accepted, its interpretation, and refusals.
 #include <filesystem>
 
 #include <catch2/catch.hpp>
@@ -154,7 +154,7 @@ coefficient = 0.5
 )");
   require_done(sweep(study, folder / "out"));
   const std::vector<std::string> lines = lines_of(bytes_of(folder / "out/sweep.csv"));
-  REQUIRE(lines.size() == 33);  // of 8 samples 4 rows each
+  REQUIRE(lines.size() == 33);  // 8 samples have 4 rows each
   CHECK(lines[0] == "row,speed [m/s],damping,pendulum.other.head_rotation [rad],problem");
   for (std::size_t k = 1; k < lines.size(); ++k) {
     const double speed = std::stod(lines[k].substr(lines[k].find(',') + 1));

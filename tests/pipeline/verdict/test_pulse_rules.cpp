@@ -45,7 +45,7 @@ TEST_CASE("a pulse by its deceleration: at times, after them, and as it decays")
   CHECK(value_gn(figures, "pulse at 20 ms") == Approx(20));
   CHECK(value_gn(figures, "pulse at 30 ms") == Approx(18 - 4 * 5.0 / 7));
   CHECK(value_gn(figures, "pulse after 30 ms") == Approx(15));
-  // From 15 gn at 36 ms to none at 41 ms.
+  // The pulse falls from 15 gn at 36 ms to zero at 41 ms.
   CHECK(*figure(figures, "time of pulse decay").value == Approx(36e-3 + 5e-3 * 10 / 15));
   for (const JudgedFigure& each : figures) CHECK(each.is_inside());
 }
@@ -84,7 +84,7 @@ TEST_CASE("a pulse by the velocity lost: areas of trapezoids") {
   CHECK(*figure(figures, "velocity lost at 30 ms").half_corridors() == Approx(0.5 / 0.6));
   for (const JudgedFigure& each : figures) CHECK(each.is_inside());
 
-  // A ramp a t: a t^2 / 2.
+  // A ramp a t has the velocity a t^2 / 2.
   PulseCurve ramp;
   ramp.time_s = Eigen::VectorXd::LinSpaced(8, 0, 0.035);
   ramp.deceleration_m_s2 = 8000 * ramp.time_s;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Signals whose figures are known in closed form, by the rules of the shipped regulations.
+// Signals whose characteristic values are known in closed form, by the rules of the shipped
+// regulations.
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -19,7 +20,7 @@ namespace {
 
 constexpr double kDeg = std::numbers::pi / 180;
 constexpr double kMs = 1e-3;
-// Of curves that are sampled at 0.1 ms and interpolated linearly, in the figure's own SI unit.
+// Error of curves sampled at 0.1 ms and interpolated linearly, in the value's own SI unit.
 constexpr double kSampling = 2e-6;
 
 double lbf_ft() { return 1 / factor_from_si("N*m", "lbf*ft"); }
@@ -35,12 +36,13 @@ ResponseCurves curves(const Curve& rotation_rad, const Curve& moment_Nm, double 
   return sampled;
 }
 
-/// A sine of that first peak: it crosses zero at twice the time of it.
+/// A sine with that first peak: it crosses zero at twice the time of the peak.
 Curve sine(double peak, double at_s) {
   return [=](double t) { return peak * std::sin(std::numbers::pi / 2 * t / at_s); };
 }
 
-/// Linear between zero at time zero, a peak and a value at a later time; linear on from there.
+/// A curve that is linear between zero at time zero, a peak and a value at a later time, and
+/// beyond.
 Curve triangle(double peak, double at_s, double value, double later_s) {
   return [=](double t) {
     return t < at_s ? peak * t / at_s : peak + (value - peak) * (t - at_s) / (later_s - at_s);
@@ -104,7 +106,7 @@ TEST_CASE("572.33: what is outside says on which side and how far") {
 }
 
 TEST_CASE("572.133 flexion: the moment counts while the rotation is inside, decay is to 10 N m") {
-  // Inside from the time at which the sine reaches 77 deg; the moment falls by 1.5 N m/ms by then.
+  // The interval begins when the sine reaches 77 deg; the moment falls by 1.5 N m/ms by then.
   const double from_s = 60 * kMs * 2 / std::numbers::pi * std::asin(77.0 / 84);
   const auto figures =
       judged_response(test_of("572.133 flexion"),
@@ -123,13 +125,13 @@ TEST_CASE("572.133: a peak between samples within the corridor's time is that of
   const auto figures = judged_response(test_of("572.133 flexion"),
                                        curves(sine(84 * kDeg, 60 * kMs), sine(76, 55.03 * kMs)));
   check(figures, "peak moment inside", 76, 0);
-  // 76 sin(...) = 10 in its falling half.
+  // The sine falls to 10: 76 sin(...) = 10 in its falling half.
   const double decay_s = 55.03 * kMs * (2 - 2 / std::numbers::pi * std::asin(10.0 / 76));
   check(figures, "time of moment decay", decay_s, (decay_s - 90 * kMs) / (10 * kMs));
 }
 
 TEST_CASE("572.133 extension: a rotation beyond its corridor leaves the times before and after") {
-  // 120 deg at 80 ms; -80 N m there do not count: what counts is the moment as 114 deg are passed.
+  // 120 deg at 80 ms; -80 N m there do not count, but the moment while 114 deg are passed.
   const double to_s = 80 * kMs * 2 / std::numbers::pi * std::asin(114.0 / 120);
   const auto figures =
       judged_response(test_of("572.133 extension"),
@@ -191,27 +193,27 @@ TEST_CASE("figures that cannot be found say so and fail") {
   const auto good_rotation = sine(71 * kDeg, 60.5 * kMs);
   const auto good_moment = sine(72.5 * lbf_ft(), 52.5 * kMs);
   const auto rising = [](double t) { return 10 * t; };
-  // The record ends before the rotation turns, or before it is back.
+  // The record ends before the rotation reverses, or before it is back at zero.
   CHECK(problem("572.33 flexion", rising, good_moment, "peak rotation") ==
         "no peak within the record");
   CHECK(problem("572.33 flexion", rising, good_moment, "first zero crossing") ==
         "no peak within the record");
   CHECK(problem("572.33 flexion", good_rotation, good_moment, "first zero crossing", 0.1) ==
         "not within the record");
-  // To the other side only.
+  // The rotation is to the other side only.
   CHECK(problem(
             "572.33 flexion", [](double t) { return -t; }, good_moment, "peak rotation") ==
         "never in the test's direction");
   CHECK(problem(
             "572.33 extension", good_rotation, [](double t) { return t; }, "peak moment") ==
         "never in the test's direction");
-  // A moment that stays.
+  // The moment does not decay.
   const auto staying = [](double t) {
     return 80 * std::min(t / 0.05, 1.0) - std::max(t - .05, 0.);
   };
   CHECK(problem("572.133 flexion", sine(84 * kDeg, 60 * kMs), staying, "time of moment decay") ==
         "not within the record");
-  // One that is never above the level, and a rotation that does not get there.
+  // The moment is never above the level, and the rotation does not reach it.
   CHECK(problem("572.133 flexion", good_rotation, sine(8, 50 * kMs), "time of moment decay") ==
         "never above that level");
   CHECK(problem("572.133 flexion", good_rotation, good_moment, "peak moment inside") ==

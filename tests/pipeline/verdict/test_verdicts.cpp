@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// [[test]] of studies, and what tables say of verdicts.
+// Tests of [[test]] of studies, and of the tables of verdicts.
 #include <algorithm>
 #include <fstream>
 
@@ -29,7 +29,7 @@ const CaseSection& case_named(const Study& study, const std::string& name) {
                        [&](const CaseSection& each) { return each.name == name; });
 }
 
-/// A run of the channels that tests read: straight up to a peak, straight down to zero.
+/// Channels that the tests read: linear up to a peak and linear down to zero.
 std::vector<multibody::Channel> channels(const VectorXd& time_s, double rotation_rad,
                                          double moment_Nm) {
   const VectorXd shape =
@@ -74,7 +74,7 @@ TEST_CASE("the curves of a test have its signs, and its pulse its filter") {
   CHECK(*extension.verdict->figures[0].value * deg == Approx(90));
   CHECK(*extension.verdict->figures[3].value == Approx(-60));
 
-  // The case's pulse lies in its corridor; before the impact there is none.
+  // The case's pulse lies in its corridor; before the impact there is no pulse.
   for (std::size_t k = 0; k < study.tests.size(); ++k)
     CHECK(judged_test(study, k, 1, 1).verdict->unmet_conditions().empty());
   const Eigen::Vector2d time_s(0, 0.2);
@@ -86,7 +86,7 @@ TEST_CASE("the curves of a test have its signs, and its pulse its filter") {
   for (Eigen::Index k = 1; k < pulse.time_s.size(); ++k)
     area += (pulse.time_s[k] - pulse.time_s[k - 1]) *
             (pulse.deceleration_m_s2[k] + pulse.deceleration_m_s2[k - 1]) / 2;
-  // The filter keeps the area but for what it carries before the contact.
+  // The filter preserves the area except for the part that it moves before the contact.
   CHECK(area == Approx(experiment.impact_velocity_m_s).epsilon(2e-3));
   CHECK(pulse.time_s[0] == 0);
   CHECK(pulse.deceleration_m_s2[0] > 0);
@@ -118,7 +118,7 @@ TEST_CASE("tests of other dummies do not apply, unless the study says that it is
         std::vector<std::string>{"572.133 flexion is for the dummy 'Hybrid III 5th female', the "
                                  "study's is 'Hybrid III 50th male'."});
 
-  // Its moment is told to be another, unless the cases form it so.
+  // The difference of its moment is reported, unless the cases compute it as the regulation does.
   const Study small = built_in({female, "dummy.name=Hybrid III 5th female"});
   CHECK(applies(small.tests[0], small));
   CHECK_THAT(judged_test(small, 0, 1, 1).moment_difference,
@@ -151,12 +151,12 @@ TEST_CASE("a line of a verdict tells how many figures are inside and which is fu
   CHECK(figures.rows[6][5] == "met");
   CHECK_THAT(figures.notes.front(), Contains("49 CFR 572.33"));
 
-  // Without a run there is nothing to say but that.
+  // Without a run the table reports only that.
   const ResultTable none =
       verdict_table({{study.tests[0], JudgedTest::Status::not_run, {}, ""}}, study);
   CHECK(none.rows[0][3] == "not run");
   CHECK_THAT(none.notes.front(), Contains("flexneck pendulum"));
-  // A figure that cannot be found counts as the furthest.
+  // A value that cannot be determined counts as the largest deviation.
   const ResultTable lost = verdict_table({judged_test(study, 0, -1, 73.5)}, study);
   CHECK(lost.rows[0][5] == "peak rotation");
   CHECK(lost.rows[0][6] == "not found");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reduced bodies from other programs: MBDyn's .fem or SID_FEM. The first byte chooses which.
+// Target: reduced bodies from other programs, MBDyn's .fem or SID_FEM. The first byte selects the
+// format.
 #include "fe_modal/body/modal_body_check.h"
 #include "fe_modal/exchange/mbdyn_fem.h"
 #include "fe_modal/exchange/sid_fem.h"

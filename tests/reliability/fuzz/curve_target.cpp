@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Curves to be rated. The first line may name the column with a leading #.
+// Target: curves to be rated. The first line may name the column after a #.
 #include <cmath>
 
 #include "pipeline/document/curve_file.h"

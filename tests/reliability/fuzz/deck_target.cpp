@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Abaqus or CalculiX input.
+// Target: Abaqus or CalculiX input.
 #include <cmath>
 
 #include "mesher/exchange/import_check.h"
@@ -42,7 +42,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.length_unit_m = 1e-3;
   return fuzz::try_reader([&] {
     LeftOut left_out;
-    // As import_mesh() does.
+    // The same calls as in import_mesh().
     const Mesh mesh = import_inp(options, {}, left_out);
     check(mesh);
     check_import(mesh, false);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Functions of time.
+// Target: functions of time.
 #include <cmath>
 
 #include "pipeline/model/expression.h"

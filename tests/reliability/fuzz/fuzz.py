@@ -19,7 +19,7 @@ HDF5 = ("history", "mesh", "modes")
 SECONDS = 10  # for one input
 MEGABYTES = 2048
 LONGEST = 4096  # bytes of an input
-# Less to remember of what is freed, for speed.
+# A smaller quarantine of freed memory, for speed.
 ASAN = "quarantine_size_mb=16:malloc_context_size=4"
 LEAKS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "leaks.txt")  # of libraries
 

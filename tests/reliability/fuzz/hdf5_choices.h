@@ -14,11 +14,13 @@ Extents extents_of(const Hdf5Handle& space);
 hsize_t count_of(const Extents& extents);
 Hdf5Handle space_of(const Extents& extents);
 
-/// A type of any class, most often numbers.
+/// A random type of any class, most often numbers.
 Hdf5Handle any_type(EditScript& script);
-/// How a dataset is stored: in one piece, in chunks with filters, within its header, elsewhere.
+/// A random storage layout of a dataset: contiguous, in chunks with filters, within its header,
+/// external.
 Hdf5Handle any_layout(EditScript& script, const Extents& extents);
-/// HDF5 1.10 crashes when it writes through some of its own filters; readers refuse them unread.
+/// Returns whether data can be written: HDF5 1.10 crashes in some of its own filters; readers
+/// refuse them unread.
 bool can_be_written(const Hdf5Handle& creation);
 
 }  // namespace flexneck::fuzz

@@ -12,12 +12,12 @@ namespace {
 
 using Handle = Hdf5Handle;
 
-constexpr hsize_t kMaxValues = 4096;  ///< of a dataset that an edit makes
+constexpr hsize_t kMaxValues = 4096;  ///< limit of datasets that an edit creates
 
 std::string folder_of(const std::string& path) { return path.substr(0, path.rfind('/') + 1); }
 std::string last_of(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
-/// Values of a dataset that is about to be made anew, as far as they can be turned into another
+/// Values of a dataset that is about to be recreated, as far as they can be converted to another
 /// type: numbers as doubles.
 struct Kept {
   explicit Kept(const Handle& dataset)
@@ -35,7 +35,7 @@ struct Kept {
     if (!bytes.empty())
       H5Dread(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data());
   }
-  /// Repeated as often as it takes.
+  /// Writes the values, repeated as often as needed.
   void write(hid_t dataset, hsize_t count) const {
     if (bytes.empty() || count == 0) return;
     std::string values;
@@ -49,7 +49,7 @@ struct Kept {
   std::string bytes;
 };
 
-/// What a script is carried out on.
+/// The file and script of an edit.
 struct Edit {
   hid_t file;
   const std::vector<std::string>& objects;
@@ -61,13 +61,13 @@ struct Edit {
     path = any_object();
     return {H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose};
   }
-  /// A name beside an object, or where another object is.
+  /// A new name beside an object, or the name of an existing object.
   std::string any_place(const std::string& beside) const {
     return script.below(4) == 0 ? any_object() : folder_of(beside) + script.text(names);
   }
 };
 
-/// Makes a dataset anew with its values and attributes.
+/// Recreates a dataset with its values and attributes.
 void make_anew(const Edit& edit, const std::string& path, const Handle& dataset, const Handle& type,
                const Extents& extents, const Handle& creation, bool is_written) {
   if (count_of(extents) > kMaxValues) return;
@@ -85,7 +85,7 @@ void make_anew(const Edit& edit, const std::string& path, const Handle& dataset,
   H5Ldelete(edit.file, old.c_str(), H5P_DEFAULT);
 }
 
-/// One value of a dataset.
+/// Changes one value of a dataset.
 void change_value(const Edit& edit) {
   std::string path;
   const Handle dataset = edit.any_dataset(path);
@@ -182,7 +182,8 @@ void copy(const Edit& edit) {
   H5Ocopy(edit.file, from.c_str(), edit.file, to.c_str(), H5P_DEFAULT, H5P_DEFAULT);
 }
 
-/// In place of an object: to itself, to another one, to a group above it, to nothing, elsewhere.
+/// Replaces an object by a link: to itself, to another one, to a group above it, to nothing, to
+/// elsewhere.
 void link(const Edit& edit) {
   const std::string at = edit.any_object();
   const std::string to = edit.any_place(at);
@@ -205,7 +206,7 @@ void make_group(const Edit& edit) {
                      H5Gclose);
 }
 
-/// A type that has a name, where readers expect a group or dataset.
+/// Creates a named type, where readers expect a group or dataset.
 void make_type(const Edit& edit) {
   const std::string place = edit.any_place(edit.any_object());
   const Handle type = any_type(edit.script);
@@ -258,7 +259,7 @@ void write_attribute(const Edit& edit, const Handle& attribute, const Handle& ty
   }
 }
 
-/// Another value, most often of the type that it has.
+/// Changes an attribute's value, most often keeping its type.
 void change_attribute(const Edit& edit) {
   const Handle object = opened_object(edit.file, edit.any_object());
   if (!object) return;
@@ -324,7 +325,7 @@ Found found_in(const Handle& file) {
 
 Hdf5Edits::Hdf5Edits(const std::string& sound) {
   start_hdf5();
-  // HDF5 keeps what it has freed, else each file takes a megabyte from the system anew.
+  // HDF5 keeps freed memory, otherwise each file allocates a megabyte anew.
   H5set_free_list_limits(-1, -1, -1, -1, -1, -1);
   image_ = without_hash(sound);
   const Found found = found_in(opened_image(image_));

@@ -8,10 +8,11 @@
 
 namespace flexneck::fuzz {
 
-/// A file in memory. @throws ComputationError if the image is none.
+/// Opens a file in memory.
+/// @throws ComputationError if the image is no HDF5 file.
 Hdf5Handle opened_image(const std::string& image);
 std::string image_of(const Hdf5Handle& file);
-/// All that a file on disk holds, but without the block in front.
+/// The content of a file without its hash block.
 std::string without_hash(const std::string& sound);
 
 Hdf5Handle opened_object(hid_t file, const std::string& path);

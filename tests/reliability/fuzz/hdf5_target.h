@@ -9,7 +9,7 @@
 
 namespace flexneck::fuzz {
 
-/// A reader of HDF5 files and the sound file whose edits it gets.
+/// A reader of HDF5 files, and the sound file whose edited versions it reads.
 class Hdf5Target {
  public:
   using OnPath = std::function<void(const std::filesystem::path&)>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Histories, see hdf5_edits.h.
+// Target: histories, see hdf5_edits.h.
 #include "multibody/analysis/linearisation.h"
 #include "multibody/files/history_file.h"
 #include "tests/reliability/fuzz/hdf5_target.h"
@@ -27,7 +27,7 @@ LinearisationRecord sound_linearisation() {
   return {"equilibrium", {"top"}, {shape, shape}};
 }
 
-/// With something of all that such a file may hold.
+/// Writes a history with an example of everything that such a file may hold.
 void write_sound(const std::filesystem::path& path) {
   testing::RandomNumbers random(7);
   HistoryFile file;
@@ -103,7 +103,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return target.run(data, size, [](const std::filesystem::path& path) {
     const HistoryFile file = read_history(path);
     check(file);
-    // As a foreign file gets into a run: through a copy of ours.
+    // A foreign file is used in a run after it has been written as a copy of this program.
     const std::filesystem::path copy = target.folder().path() / "copy.h5";
     write_history(copy, file);
     const History again = read_history(copy).history;

@@ -13,7 +13,7 @@ namespace flexneck::fuzz {
 /// A folder for the files that a target reads; in memory if TMPDIR is.
 class InputFolder {
  public:
-  /// The file of that name, with these contents.
+  /// Writes a file of that name with these contents and returns its path.
   std::filesystem::path with(const std::string& name, const std::string& contents) const;
   const std::filesystem::path& path() const { return folder_.path(); }
 
@@ -21,15 +21,15 @@ class InputFolder {
   TemporaryFolder folder_;
 };
 
-/// What fails this is a finding: the process ends with the sentence and the stack.
+/// Ends the process with the sentence and the stack if the condition fails: this is a finding.
 void require(bool holds, const std::string& what);
 
 inline std::string text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// A reader may refuse what it gets by an InputError with a text. Any other exception passes, and
-/// is a finding.
+/// Runs a reader. It may refuse its input by an InputError with a text. Any other exception passes,
+/// and is a finding.
 template <class Read>
 int try_reader(const Read& read) {
   try {

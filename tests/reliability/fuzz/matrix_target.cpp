@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Matrices and positions from other programs: Matrix Market or PETSc binary. The first byte chooses
-// format and kind.
+// Target: matrices and positions from other programs, Matrix Market or PETSc binary. The first byte
+// selects format and kind.
 #include <cmath>
 
 #include "fe_modal/exchange/matrix_file.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// mesh.h5, see hdf5_edits.h.
+// Target: mesh.h5, see hdf5_edits.h.
 #include <cmath>
 #include <numeric>
 
@@ -13,10 +13,10 @@ using namespace flexneck::mesher;
 
 namespace {
 
-/// With something of all that such a file may hold.
+/// Writes a mesh with an example of everything that such a file may hold.
 void write_sound(const std::filesystem::path& path) {
   MeshFile file{testing::small_mesh(), {}};
-  // The upper block gets a copy of the corner node 18, which lies between the two.
+  // The upper block gets a copy of the corner node 18, which lies between the two blocks.
   file.mesh.nodes.push_back(file.mesh.nodes[18]);
   file.mesh.blocks[0].nodes[0] = 45;
   file.mesh.slits = {{"cut", true, {18}, {45}, {{0, 0, 1}}, {0.125}}};
@@ -73,7 +73,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return target.run(data, size, [](const std::filesystem::path& path) {
     const MeshFile file = read_mesh(path);
     check(file);
-    // As a foreign file gets into a run: through a copy of ours.
+    // A foreign file is used in a run after it has been written as a copy of this program.
     const std::filesystem::path copy = target.folder().path() / "copy.h5";
     write_mesh(copy, file);
     const MeshFile again = read_mesh(copy);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests of ISO-MME: the file of a channel, after a line of equals signs, behind the index, and what
-// is read of a channel is written and read again.
+// Target: tests of ISO-MME. The input is the index and, after a line of equals signs, the file of a
+// channel; a channel that was read is written and read again.
 #include <bit>
 #include <cstdint>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Models. A table, the file of an assembly and the modes of a body lie beside the file.
+// Target: models. A table, the file of an assembly and the modes of a body lie beside the file.
 #include <cmath>
 
 #include "fe_modal/body/modal_body_file.h"

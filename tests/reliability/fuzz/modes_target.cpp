@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// modes.h5, see hdf5_edits.h.
+// Target: modes.h5, see hdf5_edits.h.
 #include "fe_modal/body/basis_table.h"
 #include "fe_modal/body/modal_body_file.h"
 #include "tests/reliability/fuzz/hdf5_target.h"
@@ -10,7 +10,7 @@ using namespace flexneck::fe_modal;
 
 namespace {
 
-/// With something of all that such a file may hold.
+/// Writes modes with an example of everything that such a file may hold.
 void write_sound(const std::filesystem::path& path) {
   ModalBodyFile file;
   ModalBody& body = file.body;
@@ -64,7 +64,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const ModalBodyFile file = read_modal_body(path);
     check(file.body);
     fuzz::require(basis_table(file.body).effective_mass_kg.allFinite(), "its table is finite");
-    // As a foreign file gets into a run: through a copy of ours.
+    // A foreign file is used in a run after it has been written as a copy of this program.
     const std::filesystem::path copy = target.folder().path() / "copy.h5";
     write_modal_body(copy, file);
     const ModalBody again = read_modal_body(copy).body;

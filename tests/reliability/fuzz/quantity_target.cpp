@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers with their units; the first byte chooses the dimension.
+// Target: numbers with their units; the first byte selects the dimension.
 #include <array>
 #include <cmath>
 

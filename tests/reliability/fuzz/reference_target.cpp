@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reference figures of a verification.
+// Target: reference figures of a verification.
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Certification tests of a regulation.
+// Target: certification tests of a regulation.
 #include <algorithm>
 #include <cmath>
 #include <set>

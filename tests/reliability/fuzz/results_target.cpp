@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What report, compare and info read of JSON: tables of results, and verifications.
+// Target: JSON files that report, compare and info read, tables of results and verifications.
 #include "pipeline/output/result_table.h"
 #include "pipeline/verification/verification.h"
 #include "tests/reliability/fuzz/input_folder.h"
@@ -8,7 +8,7 @@ using namespace flexneck;
 
 namespace {
 
-/// Written again, the tables are the same.
+/// Checks that the tables are the same after writing and reading.
 void check(const pipeline::TableFile& file, const std::filesystem::path& copy) {
   for (const pipeline::ResultTable& table : file.tables) {
     for (const auto& row : table.rows)

@@ -9,7 +9,7 @@ import re
 import struct
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../..")
-# Where the words of a target's dictionary stand.
+# Sources that contain the words of a target's dictionary.
 WORDS = {
     "deck": ["mesher/exchange/inp_", "mesher/exchange/abaqus"],
     "survey": ["mesher/exchange/nastran", "mesher/exchange/unv", "mesher/exchange/left_out"],
@@ -168,7 +168,7 @@ SETTINGS = ["modes.count=4", "body.head.mass=2 kg\nbody.base.mass={ value = \"1 
             "modes.fixed=[\"x\"]\nmodes.count=\"\"\"x\"\"\"", "body.head={ name = \"x\" }"]
 EXPRESSIONS = ["0.05 * sin(2 * pi * 3 * t)", "t < 1 ? gn * t^2 : max(1, t, 3)", "(t > 0) && (t < 1)",
                "1e-3 * exp(-t / 0.01)", "-t^-2", "rint(t) % 2"]
-# Two lumps along x, the second of which moves along y in the only mode.
+# Two masses along x, the second of which moves along y in the only mode.
 MBDYN = """** RECORD GROUP 1, HEADER
  REV0 2 1 0 0 0
 ** RECORD GROUP 2

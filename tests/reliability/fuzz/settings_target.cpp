@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values set on the command line, one a line, over a study of a few keys.
+// Target: values set on the command line, one per line, for a study of a few keys.
 #include <sstream>
 
 #include "pipeline/document/study_document.h"
@@ -59,7 +59,7 @@ const Key kKeys[4] = {
 
 void read_all(const pipeline::StudyTable& table, int depth);
 
-/// The value is asked for as what its row says.
+/// Reads a value with the type of its row.
 void read(const pipeline::StudyTable& table, const std::string& key, int depth) {
   switch (pipeline::find_key(table.key_rows(), key)->type) {
     case KeyType::quantities:

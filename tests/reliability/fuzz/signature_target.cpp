@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is checked of a mesh or shape before gmsh or OpenCASCADE see it; the first byte chooses the
+// Target: checks of a mesh or shape before gmsh or OpenCASCADE read it; the first byte selects the
 // format.
 #include <array>
 
@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string problem = signature_problem(format, text);
   fuzz::require(problem.find('\n') == std::string::npos, "a problem is told in one line");
   if (!problem.empty() || format != ForeignFormat::msh) return 0;
-  // gmsh takes anything but a section for the name of a file to be merged, or for a script.
+  // gmsh takes anything but a section for the name of a file to merge, or for a script.
   fuzz::require(text.starts_with("$MeshFormat"), "a .msh begins with its first section");
   return 0;
 }

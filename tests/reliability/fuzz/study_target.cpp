@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Studies. The shipped parameters of the neck and a table lie beside the file.
+// Target: studies. The shipped parameters of the neck and a table lie beside the file.
 #include <algorithm>
 #include <cmath>
 #include <set>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Our readers of .bdf and .unv files; a file that begins with -1 is a .unv.
+// Target: flexneck's own readers of .bdf and .unv files; a file that begins with -1 is a .unv.
 #include "mesher/exchange/file_signature.h"
 #include "mesher/exchange/nastran_cards.h"
 #include "mesher/exchange/unv_model.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables of comma-separated values. The first line may name the column with a leading #.
+// Target: tables of comma-separated values. The first line may name the column after a #.
 #include <algorithm>
 #include <cmath>
 
