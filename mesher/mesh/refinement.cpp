@@ -14,9 +14,10 @@
 namespace flexneck::mesher {
 namespace {
 
-/// Divides elements or faces of one kind.
-ByKind<std::int32_t> cut(const Subdivision& subdivision, std::span<const std::int32_t> connectivity,
-                         RefinedNodes& refined) {
+/// Makes elements or faces of one kind finer.
+ByKind<std::int32_t> finer_elements(const Subdivision& subdivision,
+                                    std::span<const std::int32_t> connectivity,
+                                    RefinedNodes& refined) {
   const std::size_t width = nodes_per_element(subdivision.kind);
   ByKind<std::int32_t> result;
   std::vector<std::int32_t> here(subdivision.positions.size());
@@ -159,14 +160,13 @@ void place_nodes(const Mesh& before, const RefinedNodes& refined, RefinedMesh& r
   result.prolongation.finalize();
 }
 
-}  // namespace
-
-RefinedMesh refine(const Mesh& mesh) {
+RefinedMesh finer_mesh(const Mesh& mesh, Finer how) {
   RefinedMesh result;
   std::map<ElementKind, Subdivision> subdivisions;  // new nodes keep references to them
   RefinedNodes refined(mesh.nodes.size());
   const auto pieces_of = [&](ElementKind kind, std::span<const std::int32_t> connectivity) {
-    return cut(subdivisions.try_emplace(kind, kind).first->second, connectivity, refined);
+    return finer_elements(subdivisions.try_emplace(kind, kind, how).first->second, connectivity,
+                          refined);
   };
   result.mesh.materials = mesh.materials;
   FinerBlocks blocks(result.mesh);
@@ -196,5 +196,11 @@ RefinedMesh refine(const Mesh& mesh) {
   result.mesh.connections = refine_connections(mesh, refined);
   return result;
 }
+
+}  // namespace
+
+RefinedMesh refine(const Mesh& mesh) { return finer_mesh(mesh, Finer::cut); }
+
+RefinedMesh raise_order(const Mesh& mesh) { return finer_mesh(mesh, Finer::raise); }
 
 }  // namespace flexneck::mesher

@@ -10,7 +10,7 @@
 
 namespace flexneck::mesher {
 
-/// A mesh with each element divided into eight and each face into four.
+/// A mesh with each element cut in eight and each face in four, or each of a higher order.
 struct RefinedMesh {
   Mesh mesh;
   /// (nodes, coarse nodes): the shape functions of the coarse mesh at each node, which interpolate
@@ -27,5 +27,10 @@ struct RefinedMesh {
 /// keep the pairs; their normals and areas, which no solver needs, are left out.
 /// @pre the mesh is one that check() accepts
 RefinedMesh refine(const Mesh& mesh);
+
+/// Puts quadratic elements in place of the linear ones, whose shapes they keep: 27-node hexahedra,
+/// 18-node prisms, 10-node tetrahedra and 14-node pyramids. All else is as refine() makes it, and
+/// so are the nodes.
+RefinedMesh raise_order(const Mesh& mesh);
 
 }  // namespace flexneck::mesher

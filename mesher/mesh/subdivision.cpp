@@ -132,14 +132,27 @@ ElementKind kind_of_piece(ElementKind whole, ReferenceShape shape) {
   });
 }
 
+/// The quadratic kind of most nodes in place of a linear one; others stay.
+ElementKind raised(ElementKind whole) {
+  if (order_of(whole) > 1) return whole;
+  const auto nodes_of = [&](ElementKind kind) {
+    return shape_of(kind) == shape_of(whole) ? nodes_per_element(kind) : 0;
+  };
+  const auto kinds = element_kinds();
+  return *std::max_element(kinds.begin(), kinds.end(),
+                           [&](ElementKind a, ElementKind b) { return nodes_of(a) < nodes_of(b); });
+}
+
 }  // namespace
 
-Subdivision::Subdivision(ElementKind whole) : kind(whole) {
+Subdivision::Subdivision(ElementKind whole, Finer how) : kind(whole) {
   constexpr double kNothing = 1e-12;
   std::map<std::array<double, 3>, std::size_t> known;  // coordinates are dyadic, so exact
   Points points;
-  for (const Piece& piece : pieces_of(shape_of(kind))) {
-    const ElementKind kind_here = kind_of_piece(kind, piece.shape);
+  const Piece all{shape_of(kind), Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()};
+  for (const Piece& piece : how == Finer::cut ? pieces_of(all.shape) : std::vector{all}) {
+    const ElementKind kind_here =
+        how == Finer::cut ? kind_of_piece(kind, piece.shape) : raised(kind);
     for (const auto& node : reference_nodes(kind_here)) {
       const Eigen::Vector3d x = piece.origin + piece.linear * Eigen::Vector3d(node.data());
       const auto [place, is_new] = known.try_emplace({x[0], x[1], x[2]}, points.size());

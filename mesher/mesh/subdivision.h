@@ -15,10 +15,16 @@ namespace flexneck::mesher {
 template <typename Index>
 using ByKind = std::map<ElementKind, std::vector<Index>>;
 
-/// Division of the elements or faces of a kind into eight or four, along the planes that halve the
-/// reference element. Pyramids become pyramids and tetrahedra.
+/// Way in which elements or faces of a kind become finer.
+enum class Finer {
+  cut,   ///< eight or four, along the planes that halve the reference element; pyramids become
+         ///< pyramids and tetrahedra
+  raise  ///< the quadratic one of most nodes in place of a linear one; others stay
+};
+
+/// Children of the elements or faces of a kind in a finer mesh.
 struct Subdivision {
-  explicit Subdivision(ElementKind whole);
+  Subdivision(ElementKind whole, Finer how);
 
   ElementKind kind;
   /// Positions of the children's nodes, each given by the parent's shape functions that are not

@@ -85,6 +85,28 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("raised elements have the nodes of cut ones, and fill the same volume") {
+  for (const ElementKind kind : element_kinds()) {
+    if (dimension(kind) != 3) continue;
+    CAPTURE(name_of(kind));
+    const Mesh mesh = testing::with_kind(box({2, 2, 2}), kind);
+    const RefinedMesh raised = raise_order(mesh);
+    CHECK_NOTHROW(check(raised.mesh));
+    CHECK_NOTHROW(require_sound_elements(raised.mesh));
+    CHECK(std::equal(mesh.nodes.begin(), mesh.nodes.end(), raised.mesh.nodes.begin()));
+    CHECK(hang_on_parents(mesh, raised));
+    CHECK(summarise(raised.mesh).elements == summarise(mesh).elements);
+    CHECK(summarise(raised.mesh).volume_m3 == Approx(summarise(mesh).volume_m3).epsilon(1e-9));
+    if (order_of(kind) == 1) {
+      CHECK(places(raised.mesh) == places(refine(mesh).mesh));
+      CHECK(raised.mesh.node_sets[0].nodes == nodes_of(raised.mesh.face_sets[0]).nodes);
+    } else {
+      CHECK(raised.mesh.blocks[0].kind == kind);
+      CHECK(raised.mesh.nodes.size() == mesh.nodes.size());
+    }
+  }
+}
+
 TEST_CASE("neighbours share the new nodes: a refined box has those of a box of half the size") {
   for (const ElementKind kind : {ElementKind::hex8, ElementKind::hex20, ElementKind::hex27,
                                  ElementKind::prism6, ElementKind::prism15, ElementKind::prism18}) {
