@@ -8,17 +8,8 @@
 #include <span>
 #include <utility>
 
-#include "geometry/foundation/output_file.h"
-#include "mesher/mesh/mesh_measures.h"
-
 namespace flexneck::fe_modal {
 namespace {
-
-/// Longest edge over shortest edge. Clamped beams of 20-node hexahedra in one row have estimates of
-/// 1.1 to 3.0 of the error to an aspect ratio of 5, of 0.8 at 7 and of 0.5 at 10; the steel tube of
-/// 27-node ones in mesh_error_benchmark has 5.
-constexpr double kShownAspectRatio = 5;
-constexpr double kRounding = 1e-6;
 
 /// How many nodes of a set are neither on a whole face of the set nor in an element beside one.
 std::size_t count_single(const mesher::Mesh& mesh, std::span<const std::int32_t> nodes) {
@@ -89,8 +80,6 @@ std::set<std::int32_t> sites_of(const std::vector<Each>& all) {
   return sites;
 }
 
-std::string ratio_text(double ratio) { return rounded_text(ratio, 3); }
-
 }  // namespace
 
 std::vector<std::string> held_at_single_nodes(const mesher::Mesh& mesh,
@@ -128,26 +117,15 @@ std::vector<std::string> loaded_at_single_nodes(const mesher::Mesh& mesh,
 }
 
 std::string limits_of_estimate(const mesher::Mesh& mesh, const ModalOptions& options) {
-  std::string reasons;
-  const auto add = [&](const std::string& reason) {
-    reasons += (reasons.empty() ? "" : "; ") + reason;
-  };
-  for (const mesher::ElementBlock& block : mesh.blocks) {
-    const double ratio = mesher::measure(mesh, block).max_aspect_ratio;
-    if (ratio <= kShownAspectRatio * (1 + kRounding)) continue;
-    add("part '" + block.part + "' has elements " + ratio_text(ratio) +
-        " times as long as thick, and estimates were compared with errors up to " +
-        ratio_text(kShownAspectRatio));
-  }
-  const std::vector<std::string> held = held_at_single_nodes(mesh, options);
-  if (!held.empty()) {
-    std::string names;
-    for (const std::string& line : held) names += (names.empty() ? "" : ", ") + line;
-    add("single nodes hold or load the body, so that there is no limit as elements become "
-        "smaller: " +
-        names);
-  }
-  return reasons;
+  std::vector<std::string> single = held_at_single_nodes(mesh, options);
+  const std::vector<std::string> loaded = loaded_at_single_nodes(mesh, options.prestress);
+  single.insert(single.end(), loaded.begin(), loaded.end());
+  std::string names;
+  for (const std::string& line : single) names += (names.empty() ? "" : ", ") + line;
+  if (names.empty()) return names;
+  return "single nodes hold or load the body, so that there is no limit as elements become "
+         "smaller: " +
+         names;
 }
 
 }  // namespace flexneck::fe_modal

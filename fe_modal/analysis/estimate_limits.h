@@ -22,9 +22,11 @@ std::vector<std::string> held_at_single_nodes(const mesher::Mesh& mesh,
 std::vector<std::string> loaded_at_single_nodes(const mesher::Mesh& mesh,
                                                 const std::vector<Load>& loads);
 
-/// Why estimates of the mesh's error (discretisation_error.h) are an indication alone: what is held
-/// at single nodes, and elements longer than those of the bodies for which the estimate was
-/// compared with the error. Empty if it was shown for such bodies.
+/// Why estimates of the mesh's error (discretisation_error.h) are an indication alone: the single
+/// nodes that hold the body, or load it for a prestress. Empty if there are none. Nothing else
+/// makes them one: at edges that are re-entrant, bonded, held or cracked stresses grow without
+/// limit, too, but frequencies converge with an order of at least 1/2, of which the estimate is
+/// 0.88 of the error.
 std::string limits_of_estimate(const mesher::Mesh& mesh, const ModalOptions& options);
 
 }  // namespace flexneck::fe_modal
