@@ -50,7 +50,7 @@ struct ModalOptions {
   SlitMotions slit_motions = SlitMotions::none;  ///< with the modes of the body with slits shut
   bool geometric_stiffness = false;              ///< of the modes under unit loads; of a fixed body
   /// Count the modes by inertia too, which costs a factorisation, and estimate the error of the
-  /// mesh, which costs twice the modes. Not of Craig-Bampton.
+  /// mesh, which costs some ten times the modes. Not of Craig-Bampton.
   bool check = false;
   std::string fixed_set;  ///< node set fixed in all directions; empty: none
   /// Node sets fixed in some of x, y and z only.
