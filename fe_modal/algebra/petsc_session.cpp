@@ -99,14 +99,17 @@ PetscSession::PetscSession(Start /*start*/) {
   if (finalized != 0) throw ComputationError("PETSc can be initialised once in a process only");
   PETSC_MPI_THREAD_REQUIRED = MPI_THREAD_SERIALIZED;
   // The process keeps its signal handlers, and neither a user's .petscrc nor the environment nor
-  // the command line steers the solvers: PETSc sees these arguments only.
+  // the command line steers the solvers: PETSc sees these arguments only. At its end it tells
+  // nobody which options of the session nothing has asked for.
   unsetenv("PETSC_OPTIONS");
   char name[] = "flexneck";
   char no_signals[] = "-no_signal_handler";
   char no_petscrc[] = "-skip_petscrc";
-  char* arguments[] = {name, no_signals, no_petscrc, nullptr};
+  char options_left[] = "-options_left";
+  char no[] = "no";
+  char* arguments[] = {name, no_signals, no_petscrc, options_left, no, nullptr};
   char** argument_list = arguments;
-  int argument_count = 3;
+  int argument_count = 5;
   const PetscErrorCode code = SlepcInitialize(&argument_count, &argument_list, nullptr, nullptr);
   if (code != 0) {  // how far they came they do not say, but MPI does
     int has_begun = 0;

@@ -21,12 +21,12 @@ using testing::run_flexneck;
 
 namespace {
 
-/// Runs a command by mpirun and removes mpirun's own message on a failed process.
+/// Runs a command by mpirun and has Open MPI 4 leave out mpirun's own message on a failed process.
 CommandOutcome run_by_mpi(const std::string& processes) {
   return testing::run_shell(
       "timeout 100 env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1 "
-      "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_base_warn_component_unused=0 "
-      "mpirun --quiet " +
+      "OMPI_MCA_orte_execute_quiet=1 OMPI_MCA_btl_base_warn_component_unused=0 "
+      "mpirun --oversubscribe " +
       processes);
 }
 
