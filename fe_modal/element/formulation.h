@@ -32,7 +32,7 @@ struct FormulationChoice {
 };
 
 /// A line for each material that would lock, nearly incompressible, nu > 0.45, but not mixed, and
-/// for each part with linear tetrahedra or pyramids.
+/// for each part with linear tetrahedra or pyramids, or with slender quadratic ones.
 std::vector<std::string> locking_warnings(const mesher::Mesh& mesh,
                                           const FormulationChoice& formulation);
 

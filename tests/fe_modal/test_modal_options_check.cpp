@@ -130,6 +130,15 @@ TEST_CASE("each material has its formulation, and one that locks is warned of") 
     CHECK_THAT(linear[0], Catch::Contains("part 'pad' has elements of kind " +
                                           std::string(mesher::name_of(kind))));
   }
+  for (const double length_m : {0.09, 0.5}) {
+    const mesher::Mesh strip = testing::with_kind(
+        testing::box({1, 1, 1}, {0.01, 0.01, length_m}, {"steel", 2.1e11, 0.3, 7850}).make(),
+        mesher::ElementKind::tet10);
+    const auto slender = locking_warnings(strip, {});
+    REQUIRE(slender.size() == (length_m > 0.1 ? 1 : 0));
+    if (!slender.empty())
+      CHECK_THAT(slender[0], Catch::Contains("of kind tet10 up to 5") && Catch::Contains("thick"));
+  }
 
   ModalOptions unknown;
   unknown.fixed_set = "bottom";
