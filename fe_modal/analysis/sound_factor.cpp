@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/analysis/sound_factor.h"
 
+#include "fe_modal/element/rounding.h"
 #include "fe_modal/solve/mechanism.h"
 #include "geometry/foundation/error.h"
 
@@ -20,7 +21,8 @@ void refuse_mechanism(const AssembledSystem& system, bool is_fixed) {
   refuse_named_motions(system, is_fixed);
   throw ComputationError(
       "the body is a mechanism, or so nearly that rounding hides how its softest motion strains "
-      "it: hold it in more places, or make it less slender");
+      "it: " +
+      cause_of_rounding(system.model().mesh()));
 }
 
 std::unique_ptr<const LinearSolver> factorise_or_refuse(const AssembledSystem& system,

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "fe_modal/element/element_fields.h"
+#include "geometry/foundation/output_file.h"
 
 namespace flexneck::fe_modal {
 namespace {
@@ -64,6 +65,23 @@ double rounding_error(const mesher::Mesh& mesh, const FormulationChoice& formula
   const double omega = 2 * std::numbers::pi * *elastic;
   const double exact = std::sqrt(work / body.invariants.Maa(mode, mode));
   return std::abs(omega - exact) / exact;
+}
+
+std::string cause_of_rounding(const mesher::Mesh& mesh) {
+  // K has the bulk modulus beside the shear modulus: ten times it at a ratio of 0.45.
+  constexpr double kNearlyIncompressible = 0.45;
+  constexpr int kDigits = 15;
+  const auto nearest = std::max_element(mesh.materials.begin(), mesh.materials.end(),
+                                        [](const mesher::Material& a, const mesher::Material& b) {
+                                          return a.poissons_ratio < b.poissons_ratio;
+                                        });
+  if (nearest->poissons_ratio > kNearlyIncompressible)
+    return "Poisson's ratio of '" + nearest->name + "' is " +
+           rounded_text(nearest->poissons_ratio, kDigits) +
+           ", too near 1/2 for so slender a body; each nine less makes a tenth of the error";
+  return "the body is so slender, or held so loosely, that what resists its softest motion is "
+         "small beside what its elements resist; model a shorter or thicker one, hold it in more "
+         "places, or take a beam's or plate's theory";
 }
 
 }  // namespace flexneck::fe_modal

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+
 #include "fe_modal/body/modal_body.h"
 #include "fe_modal/element/formulation.h"
 #include "mesher/mesh/mesh.h"
@@ -17,5 +19,8 @@ namespace flexneck::fe_modal {
 /// not have.
 double rounding_error(const mesher::Mesh& mesh, const FormulationChoice& formulation,
                       const ModalBody& body);
+
+/// Property of the body by which rounding spoils its lowest frequencies, and what to change.
+std::string cause_of_rounding(const mesher::Mesh& mesh);
 
 }  // namespace flexneck::fe_modal

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/evaluation/structure_modes.h"
 
-#include <algorithm>
 #include <utility>
 
 #include <fmt/core.h>
@@ -29,21 +28,8 @@ std::string rounding_remark(const mesher::Mesh& mesh, const fe_modal::ModalOptio
   constexpr double kWrong = 1e-3;
   const double error = fe_modal::rounding_error(mesh, options.formulation, body);
   if (error <= kWorthTelling) return {};
-  const auto nearest = std::max_element(mesh.materials.begin(), mesh.materials.end(),
-                                        [](const mesher::Material& a, const mesher::Material& b) {
-                                          return a.poissons_ratio < b.poissons_ratio;
-                                        });
-  // K contains the bulk and the shear modulus; their ratio is ten at a Poisson's ratio of 0.45.
-  constexpr double kNearlyIncompressible = 0.45;
-  std::string line = fmt::format("rounding moves the first frequency by {:.1e} of it: ", error);
-  line += nearest->poissons_ratio > kNearlyIncompressible
-              ? fmt::format(
-                    "Poisson's ratio of '{}' is {:.15g}, too near 1/2 for so slender a "
-                    "body; each nine less makes a tenth of the error",
-                    nearest->name, nearest->poissons_ratio)
-              : "the body is so slender, or held so loosely, that what resists its softest motion "
-                "is small beside what its elements resist; model a shorter or thicker one, hold it "
-                "in more places, or take a beam's or plate's theory";
+  const std::string line = fmt::format("rounding moves the first frequency by {:.1e} of it: {}",
+                                       error, fe_modal::cause_of_rounding(mesh));
   if (!(error < kWrong)) throw ComputationError(line);
   return line;
 }
