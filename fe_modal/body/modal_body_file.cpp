@@ -104,7 +104,6 @@ void read_shapes(const Hdf5Reader& file, std::size_t m, ModalBody& body) {
 }
 
 constexpr const char* kEnergyFractions = "/basis/energy_fractions";
-constexpr const char* kFormerly = "/basis/shares";  ///< in files of earlier versions
 
 void write_basis(Hdf5Writer& file, const ModalBody& body) {
   std::vector<std::string> kinds;
@@ -145,8 +144,7 @@ void read_basis(const Hdf5Reader& file, std::size_t m, ModalBody& body) {
   const std::vector<std::string> kinds = file.read_strings("/basis/kind");
   if (names.size() != m) file.refuse("/mode_names", "not as many names as frequencies");
   if (kinds.size() != m) file.refuse("/basis/kind", "not as many kinds as frequencies");
-  const std::string fractions = file.has(kEnergyFractions) ? kEnergyFractions : kFormerly;
-  const std::vector<double> shares = file.read_doubles(fractions, {m, 4}, "percent");
+  const std::vector<double> shares = file.read_doubles(kEnergyFractions, {m, 4}, "percent");
   const std::vector<double> residuals = file.read_doubles("/basis/residual", {m}, "1");
   for (std::size_t k = 0; k < m; ++k) {
     ModeRecord mode{names[k], kinds[k], {}, residuals[k]};

@@ -8,7 +8,6 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/document/assembly_names.h"
-#include "pipeline/document/former_names.h"
 #include "pipeline/document/shipped_files.h"
 #include "pipeline/document/toml_nodes.h"
 #include "pipeline/document/toml_source.h"
@@ -44,10 +43,8 @@ std::vector<std::string> taken(std::vector<std::string>& settings, const std::st
 
 class Reading {
  public:
-  Reading(const std::vector<std::string>& settings, std::span<const Key> keys) : keys_(keys) {
-    for (const std::string& setting : settings)
-      settings_.push_back(with_current_names(setting, keys, content_.warnings));
-  }
+  Reading(const std::vector<std::string>& settings, std::span<const Key> keys)
+      : keys_(keys), settings_(settings) {}
 
   DocumentContent document(const DocumentSource& source) {
     toml::table& root = content_.root;
@@ -59,9 +56,7 @@ class Reading {
     for (const std::string& setting : taken(settings_, "assembly."))
       throw InputError("--set " + setting + ": there is no assembly of that name");
     for (const std::string& setting : settings_) apply_setting(root, setting);
-    // Settings may use names of an earlier version, or variables, too.
-    use_current_names(root, keys_, "", content_.warnings);
-    variables.substitute(root);
+    variables.substitute(root);  // which settings may use, too
     record(variables);
     return std::move(content_);
   }
@@ -70,9 +65,7 @@ class Reading {
   /// Parses a file with its includes; it counts as open until close().
   toml::table file(const DocumentSource& source) {
     std::vector<InputFile> read;
-    toml::table table = parse_with_includes(source, read, [&](toml::table& each) {
-      use_current_names(each, keys_, "", content_.warnings);
-    });
+    toml::table table = parse_with_includes(source, read);
     open_.push_back(fs::weakly_canonical(source.path));
     count_ += read.size();
     for (InputFile& each : read)

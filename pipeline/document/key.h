@@ -53,19 +53,11 @@ enum class UsedBy {
   named_experiments,  ///< the experiments that name the table, as a case names its pulse
 };
 
-/// A text of an earlier version and its current form.
-struct FormerText {
-  std::string_view was;
-  std::string_view is;
-};
-
 struct KeyDetails {
   Range range = {};
   std::size_t size = 0;                             ///< length of a list; 0: any
   std::vector<std::string> (*choices)() = nullptr;  ///< the allowed texts; none: all
   Origin origin = Origin::synthetic;                ///< origin of the fallback
-  std::string_view formerly = {};                   ///< name of the key in earlier versions
-  std::span<const FormerText> former_texts = {};
   UsedBy used_by = UsedBy::table;
   bool changes_results = true;  ///< false if it concerns the computation or additional data only
 };
@@ -130,9 +122,8 @@ struct Key {
     return {name, KeyType::expression_or_quantities, unit, fallback, what, {}, {}};
   }
   static constexpr Key table(Text name, Text what, std::span<const Key> keys,
-                             UsedBy used_by = UsedBy::table, Text formerly = {}) {
-    return {name, KeyType::table, {}, kNone, what, {.formerly = formerly, .used_by = used_by},
-            keys};
+                             UsedBy used_by = UsedBy::table) {
+    return {name, KeyType::table, {}, kNone, what, {.used_by = used_by}, keys};
   }
   static constexpr Key tables(Text name, Text what, std::span<const Key> keys,
                               UsedBy used_by = UsedBy::table) {

@@ -11,7 +11,6 @@
 #include "geometry/foundation/names.h"
 #include "geometry/foundation/output_file.h"
 #include "pipeline/document/assemblies.h"
-#include "pipeline/document/former_names.h"
 #include "pipeline/document/study_node.h"
 #include "pipeline/document/toml_source.h"
 
@@ -251,8 +250,7 @@ StudyTable StudyDocument::root() const {
 }
 
 void StudyDocument::set(const std::string& setting) {
-  std::vector<std::string> told;  // discarded: these warnings were given when the document was read
-  apply_setting(impl_->content.root, with_current_names(setting, impl_->keys, told));
+  apply_setting(impl_->content.root, setting);
   impl_->records = {impl_->keys, impl_->content.parameters, {}};
 }
 

@@ -109,15 +109,13 @@ toml::table parse(const fs::path& path, const std::string& text) {
 /// Reads a file and its includes.
 class Reading {
  public:
-  Reading(std::vector<InputFile>& files, const Preparation& prepare)
-      : files_(files), prepare_(prepare) {}
+  explicit Reading(std::vector<InputFile>& files) : files_(files) {}
 
   toml::table merged(const DocumentSource& source) {
     const fs::path& path = source.path;
     open(path);
     const std::string text = source.text ? *source.text : read_text(path, kMaxBytes);
     toml::table own = parse(path, text);
-    prepare_(own);
     toml::table table;
     if (toml::node* const include = own.get("include")) {
       if (!include->is_array() || !include->as_array()->is_homogeneous<std::string>()) {
@@ -156,7 +154,6 @@ class Reading {
   }
 
   std::vector<InputFile>& files_;
-  const Preparation& prepare_;
   std::vector<fs::path> open_;  ///< the file being read and the files that include it
   std::size_t count_ = 0;
 };
@@ -191,9 +188,8 @@ std::vector<std::string> split(const std::string& text, char separator) {
 
 }  // namespace
 
-toml::table parse_with_includes(const DocumentSource& source, std::vector<InputFile>& files,
-                                const Preparation& prepare) {
-  return Reading(files, prepare).merged(source);
+toml::table parse_with_includes(const DocumentSource& source, std::vector<InputFile>& files) {
+  return Reading(files).merged(source);
 }
 
 void apply_setting(toml::table& root, const std::string& setting) {

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,12 +17,8 @@ namespace flexneck::pipeline {
 inline constexpr std::size_t kMaxFiles = 100;
 inline constexpr std::size_t kDeepestInclude = 16;  ///< maximum depth of nested includes
 
-/// Transformation of each file's table before the including file is merged over it.
-using Preparation = std::function<void(toml::table&)>;
-
 /// Parses a file and its includes into one table. The files read are appended to `files`.
-toml::table parse_with_includes(const DocumentSource& source, std::vector<InputFile>& files,
-                                const Preparation& prepare);
+toml::table parse_with_includes(const DocumentSource& source, std::vector<InputFile>& files);
 
 /// Applies one "dotted.key=value" from the command line.
 void apply_setting(toml::table& root, const std::string& setting);

@@ -5,7 +5,6 @@
 
 #include "geometry/foundation/error.h"
 #include "mesher/exchange/script_files.h"
-#include "pipeline/document/former_names.h"
 #include "pipeline/isolation/result_files.h"
 #include "pipeline/model/model_sections.h"
 #include "pipeline/version.h"
@@ -34,12 +33,6 @@ std::vector<std::string> named_by(const CaseSection& experiment) {
   for (const std::string& force : experiment.forces)
     for (const ModelSection& section : force_sections()) add(std::string(section.key.name), force);
   return prefixes;
-}
-
-/// Values under the current names of their keys, since a folder may be of an earlier version.
-std::vector<Parameter> with_current_names(std::vector<Parameter> parameters) {
-  for (Parameter& each : parameters) each.key = current_name(each.key, study_keys());
-  return parameters;
 }
 
 /// True if a key changes results; keys of other programs may not be in the table and count.
@@ -209,7 +202,7 @@ void require_same_inputs(const fs::path& file, const Provenance& made_from, cons
     throw InputError(file.string() + ": was made " + difference + "; make it again with '" +
                      made_by + "'");
   };
-  const std::vector<Parameter> made_with = with_current_names(made_from.parameters);
+  const std::vector<Parameter>& made_with = made_from.parameters;
   for (const Parameter& then : made_with) {
     if (!matters(then.key)) continue;
     const std::string with = "with " + then.key + " = " + then.value + ", the study has ";
@@ -250,7 +243,7 @@ std::string replaced_values(const fs::path& file, const FileFormat& format, cons
   if (!has_more_than_mesh(file)) return {};
   const Provenance made_from = provenance_in(file, format);
   if (made_from.program.empty()) return {};
-  const std::vector<Parameter> then = with_current_names(made_from.parameters);
+  const std::vector<Parameter>& then = made_from.parameters;
   const auto text = [](const Parameter* parameter) {
     return parameter == nullptr ? "none" : parameter->value;
   };

@@ -20,8 +20,7 @@ std::vector<std::string> kinds() { return {"ground", "prescribed", "rigid", "def
 constexpr auto kOwnKeys = joined(
     std::to_array<Key>({
         Key::text("name", kRequired, "Name of the body"),
-        Key::text("kind", kRequired, "What the body is",
-                  {.choices = kinds, .former_texts = kFormerBodyKinds}),
+        Key::text("kind", kRequired, "What the body is", {.choices = kinds}),
         Key::quantities(
             "position", "m", kNone,
             "Where its frame is at the start, in the world; the joints place it if neither "

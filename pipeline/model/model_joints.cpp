@@ -40,13 +40,10 @@ std::size_t marker_named(const StudyTable& table, const std::string& key,
 
 namespace {
 
-constexpr FormerText kFormerKinds[] = {{"slider", "prismatic"}};
-
 constexpr auto kJointKeys = std::to_array<Key>({
     Key::text("name", kRequired, "Name of the joint"),
     Key::text("kind", kRequired, "Which motion it leaves",
-              {.choices = [] { return names_of_kinds(multibody::kJointKinds); },
-               .former_texts = kFormerKinds}),
+              {.choices = [] { return names_of_kinds(multibody::kJointKinds); }}),
     Key::text("lower", kRequired, "Marker of the lower body"),
     Key::text("upper", kRequired,
               "Marker of the upper body, on which the lower one exerts the reaction"),

@@ -8,9 +8,6 @@
 
 namespace flexneck::pipeline {
 
-/// Former texts of the key `kind` of bodies.
-inline constexpr FormerText kFormerBodyKinds[] = {{"driven", "prescribed"}};
-
 /// Keys of mass, centre and inertia, needed for rigid bodies only.
 inline constexpr std::array<Key, 3> kRigidBodyKeys = {{
     Key::quantity("mass", "kg", kNone, "Of a rigid body: its mass"),

@@ -16,9 +16,9 @@ inline std::vector<std::string> integrators() { return {"dormand_prince", "gener
 inline constexpr auto kStepKeys = std::to_array<Key>({
     Key::number("relative_tolerance", "1e-6", "Relative tolerance of a step", {.range = kPositive}),
     Key::number("absolute_tolerance", "1e-9", "Absolute tolerance of a step", {.range = kPositive}),
-    Key::quantity("max_step", "s", "0.05", "Largest step", {.formerly = "largest_step"}),
+    Key::quantity("max_step", "s", "0.05", "Largest step"),
     Key::quantity("min_step", "s", "1e-10", "Smallest step, below which a run ends",
-                  {.range = kPositive, .formerly = "smallest_step"}),
+                  {.range = kPositive}),
     Key::text("formulation", "automatic",
               "Equations of motion: of all bodies with constraints, of joint coordinates, or "
               "whichever "
@@ -34,7 +34,7 @@ inline constexpr auto kStepKeys = std::to_array<Key>({
                   "No feature of a motion or a load by an expression that is longer is missed",
                   {.range = kPositive}),
     Key::count("max_steps", "10000000", "Steps after which a run is given up",
-               {.range = at_least(1), .formerly = "most_steps"}),
+               {.range = at_least(1)}),
 });
 
 /// Reads the settings of time integration, the keys kStepKeys.

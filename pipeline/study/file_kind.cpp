@@ -11,7 +11,7 @@ namespace flexneck::pipeline {
 
 FileKind kind_of_file(const std::filesystem::path& path) {
   std::vector<InputFile> files;
-  const toml::table root = parse_with_includes(path, files, [](toml::table& /*of a file*/) {});
+  const toml::table root = parse_with_includes(path, files);
   for (const auto& [key, node] : root)
     if (find_key(study_keys(), std::string(key.str())) != nullptr &&
         find_key(model_keys(), std::string(key.str())) == nullptr)

@@ -25,7 +25,7 @@ constexpr Key kModesKeys[] = {
               "Formulation of the elements: mixed_pressure, displacement or reduced"),
     Key::flag("check", "false",
               "Whether to check that no mode is missing, and to estimate the error of the mesh",
-              {.formerly = "certify", .changes_results = false}),
+              {.changes_results = false}),
     Key::text("basis", "normal", "Which vectors the basis of a body is made of",
               {.choices = [] { return fe_modal::basis_names(); }}),
     Key::texts("rigid_interfaces", kNone, "Interfaces whose nodes move as a rigid body"),
@@ -53,7 +53,7 @@ constexpr Key kModesKeys[] = {
               "-eps_mpd, -eps_max_it, -st_ksp_, -st_pc_factor_mat_, -st_mat_mumps_ or "
               "-st_mat_cholmod_",
               {.changes_results = false}),
-    Key::texts("fixed", kNone, "Node sets that are fixed in all directions", {.formerly = "held"}),
+    Key::texts("fixed", kNone, "Node sets that are fixed in all directions"),
     Key::table("fixed_directions", "Node sets that are fixed in some directions", kFixedKeys,
                UsedBy::table, "held_directions"),
     Key::flag("deck_supports", "true",

@@ -56,7 +56,7 @@ density = "2700 kg/m^3"
 parts = ["bar"]
 [modes]
 count = 3
-held = ["clamp"]
+fixed = ["clamp"]
 [[interface]]
 name = "tip"
 position = ["0.5 m", "0 m", "0 m"]

@@ -15,17 +15,15 @@ using namespace flexneck::pipeline;
 
 namespace {
 
-constexpr FormerText kFormerColours[] = {{"crimson", "red"}};
-
 constexpr Key kPartKeys[] = {
     Key::quantity("width", "m", "0.25", "A length"),
     Key::quantity("height", "m", kRequired, "A length"),
     Key::quantities("position", "m", kRequired, "A point", {.size = 3}),
     Key::number("ratio", kRequired, "A number", {.range = {.low = 0, .high = 1}}),
     Key::number("w", kRequired, "A number"),
-    Key::count("count", kRequired, "A whole number", {.range = at_least(1), .formerly = "number"}),
+    Key::count("count", kRequired, "A whole number", {.range = at_least(1)}),
     Key::flag("hollow", "false", "A flag"),
-    Key::text("colour", kNone, "A text", {.former_texts = kFormerColours}),
+    Key::text("colour", kNone, "A text"),
     Key::texts("holes", kNone, "Texts"),
     Key::quantity("stiffness", "N/m | N*m/rad", "0", "Of two kinds"),
     Key::quantity("plate_diameter", "m", kNone, "A length"),
@@ -33,7 +31,7 @@ constexpr Key kPartKeys[] = {
 
 constexpr Key kCaseKeys[] = {
     Key::text("name", kRequired, "A name"),
-    Key::count("count", kRequired, "A whole number", {.range = at_least(0), .formerly = "number"}),
+    Key::count("count", kRequired, "A whole number", {.range = at_least(0)}),
     Key::number("ratio", kRequired, "A number"),
     Key::texts("holes", kNone, "Texts"),
 };
@@ -171,44 +169,6 @@ TEST_CASE("what a study gets wrong is told with file, line, column, key and reme
   CHECK_THROWS_WITH(document_of(folder, "[part\nwidth = 1"), Contains("study.toml:1:"));
   CHECK_THROWS_WITH(StudyDocument(folder / "none.toml", {}, kKeys),
                     Contains("none.toml: no such file"));
-}
-
-TEST_CASE("names of earlier versions are read as those of today, with a warning each") {
-  const TemporaryFolder folder;
-  std::ofstream(folder / "base.toml") << "[part]\nnumber = 3\n";
-  const StudyDocument document = document_of(folder, R"(include = ["base.toml"]
-[part]
-count = 4
-colour = { value = "crimson", origin = "published" }
-[[case]]
-name = "first"
-number = 5
-[[case]]
-name = "second"
-number = 0
-)",
-                                             {"case.second.number=7"});
-  const StudyTable root = document.root();
-  CHECK(root.table("part").count("count") == 4);
-  CHECK(root.table("part").text("colour") == "red");
-  CHECK(root.tables("case").at(0).count("count") == 5);
-  CHECK(root.tables("case").at(1).count("count") == 7);
-  std::string warnings;
-  for (const std::string& each : document.warnings()) warnings += each + "\n";
-  CHECK(document.warnings().size() == 5);
-  CHECK_THAT(warnings, Contains("command line: 'case.second.number' is now called "
-                                "'case.second.count'\n"));
-  CHECK_THAT(warnings, Contains("base.toml:2:10: part.number: 'number' is now called 'count'\n"));
-  CHECK_THAT(warnings, Contains("study.toml:4:20: part.colour: 'crimson' is now called 'red'\n"));
-  CHECK_THAT(warnings, Contains("study.toml:7:10: case.number: 'number' is now called 'count'\n"));
-  CHECK(document_of(folder, "", {"part.colour=crimson"}).root().table("part").text("colour") ==
-        "red");
-  CHECK_THROWS_WITH(
-      document_of(folder, "[part]\nnumber = 1\ncount = 2\n"),
-      Contains("study.toml:2:10: part.number: is now called 'count', which is there too"));
-  // The message gives the key's line, whatever its name.
-  CHECK_THROWS_WITH(document_of(folder, "[part]\nnumber = 0\n").root().table("part").count("count"),
-                    Contains("study.toml:2:10: part.count: expected a whole number of at least 1"));
 }
 
 TEST_CASE("a reader takes no key and no type but those of the table of keys") {
