@@ -23,7 +23,7 @@ inline constexpr std::size_t kAnyExtent = static_cast<std::size_t>(-1);
 /// `schema_version`, next to `units` = "SI".
 struct FileFormat {
   std::string_view name;     ///< e.g. "flexneck mesh"
-  int schema_version;        ///< raised when a reader of the old layout would fail
+  int schema_version;        ///< raised when the layout changes
   std::string_view made_by;  ///< the command that makes such a file, for error messages
 };
 
@@ -82,7 +82,7 @@ class Hdf5Writer {
 /// read.
 class Hdf5Reader {
  public:
-  /// Checks that the file is HDF5, of this format and of a schema version no newer than known.
+  /// Checks that the file is HDF5, of this format and of its schema version.
   Hdf5Reader(std::filesystem::path path, const FileFormat& format);
   ~Hdf5Reader();
   Hdf5Reader(const Hdf5Reader&) = delete;

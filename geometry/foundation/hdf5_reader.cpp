@@ -96,10 +96,9 @@ Hdf5Reader::Hdf5Reader(fs::path path, const FileFormat& format)
     refuse("/", "expected the format '" + expected + "', found '" + found + "'");
   }
   const std::int64_t version = integer_attribute("/", "schema_version");
-  if (version < 1 || version > format.schema_version) {
-    refuse("/", "expected schema_version 1 to " + std::to_string(format.schema_version) +
-                    ", found " + std::to_string(version));
-  }
+  if (version != format.schema_version)
+    refuse("/", "expected schema_version " + std::to_string(format.schema_version) + ", found " +
+                    std::to_string(version));
 }
 
 std::string format_of(const fs::path& path) {

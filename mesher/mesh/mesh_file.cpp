@@ -247,8 +247,7 @@ void read_orders(const Hdf5Reader& reader, MeshFile& file) {
 
 void write_mesh(const std::filesystem::path& path, const MeshFile& file) {
   check(file);
-  Hdf5Writer writer(path,
-                    file.mesh.connections.empty() ? kMeshFormatWithoutConnections : kMeshFormat);
+  Hdf5Writer writer(path, kMeshFormat);
   writer.write("/nodes", flattened(file.mesh.nodes), {file.mesh.nodes.size(), 3}, "m");
   write_materials(writer, file.mesh);
   write_blocks(writer, file.mesh);

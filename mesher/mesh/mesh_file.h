@@ -13,8 +13,6 @@ namespace flexneck::mesher {
 
 /// Format of a mesh file; the layout is described in mesher/mesh/README.md.
 inline constexpr FileFormat kMeshFormat{"flexneck mesh", 4, "flexneck mesh"};
-/// Format of a mesh without connections, which readers of version 3 know too.
-inline constexpr FileFormat kMeshFormatWithoutConnections{"flexneck mesh", 3, "flexneck mesh"};
 
 struct MeshFile {
   Mesh mesh;

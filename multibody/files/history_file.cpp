@@ -154,9 +154,6 @@ LinearisationRecord read_linearisation(const Hdf5Reader& file) {
   record.about = file.string_attribute(kLinearisation, "about");
   record.markers = file.read_strings(path_of(kLinearisation, "markers"));
   for (const ModeNumber& number : kModeNumbers) {
-    // Files of earlier versions hold stable modes only, without growth rates.
-    const bool may_lack = number.member == &SystemMode::growth_rate_1_s;
-    if (may_lack && !file.has(path_of(kLinearisation, number.name))) continue;
     const std::vector<double> values =
         file.read_doubles(path_of(kLinearisation, number.name),
                           {record.modes.empty() ? kAnyExtent : record.modes.size()}, number.unit);
@@ -216,7 +213,6 @@ HistoryFile read_history(const std::filesystem::path& path) {
     history.state.bodies.push_back(read_state(reader, name, times));
   if (!history.state.bodies.empty())
     history.state.internal = read_rows(reader, kInternal, times, "m, rad");
-  // Files of earlier versions have no angles.
   if (reader.has(kAngleNames)) {
     history.state.angle_names = reader.read_strings(kAngleNames);
     history.state.angles = read_columns<Eigen::MatrixXd>(reader, kAngles, times,
@@ -228,12 +224,10 @@ HistoryFile read_history(const std::filesystem::path& path) {
   visit_energies(history.energy, [&](const char* name, Eigen::VectorXd& values) {
     values = read_vector(reader, path_of(kEnergy, name), times, "J");
   });
-  // Files of earlier versions have no constraint residuals.
-  if (reader.has(kConstraints))
-    visit_constraints(history.constraints,
-                      [&](const char* name, Eigen::VectorXd& values, const char* unit) {
-                        values = read_vector(reader, path_of(kConstraints, name), times, unit);
-                      });
+  visit_constraints(history.constraints,
+                    [&](const char* name, Eigen::VectorXd& values, const char* unit) {
+                      values = read_vector(reader, path_of(kConstraints, name), times, unit);
+                    });
   history.statistics = read_statistics(reader);
   if (has_attribute(reader, kStatistics, kFreedoms))
     history.freedoms = count_from(reader, path_of(kStatistics, kFreedoms),

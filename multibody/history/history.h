@@ -53,7 +53,7 @@ struct BodyHistory {
   Eigen::Matrix3Xd angular_velocity_rad_s;  ///< body axes
   Eigen::MatrixXd modal;                    ///< kg^(1/2) m, (m, n); no rows for a rigid body
   Eigen::MatrixXd modal_rate;               ///< kg^(1/2) m/s
-  /// See inertia_of(). Empty in files of earlier versions.
+  /// See inertia_of(); may be empty.
   Eigen::VectorXd inertia = {};
 };
 

@@ -128,7 +128,6 @@ bool do_command(const CommandLine& line, const Console& console, Ranks ranks,
   StudyChoice choice;
   Study study = read_together(line, console, ranks, choice);
   study.solver.checkpoint = console.checkpoint();
-  for (const std::string& warning : study.warnings) console.warning(warning);
   if (ranks.are_many() && (line.show || !command.uses_ranks)) {
     if (!is_first) return true;
     console.step("Only modes are computed on many ranks: '" + command.name + "' runs on the first");

@@ -255,7 +255,6 @@ void StudyDocument::set(const std::string& setting) {
 }
 
 const std::vector<InputFile>& StudyDocument::files() const { return impl_->content.files; }
-const std::vector<std::string>& StudyDocument::warnings() const { return impl_->content.warnings; }
 const std::vector<Parameter>& StudyDocument::parameters() const {
   return impl_->records.parameters;
 }

@@ -97,8 +97,6 @@ class StudyDocument {
   void set(const std::string& setting);
   /// The files read, in the order of inclusion, with the hash of their contents.
   const std::vector<InputFile>& files() const;
-  /// Uses of an earlier version's names in the files, one line each.
-  const std::vector<std::string>& warnings() const;
   /// Every value read through the tables so far, in the order of reading.
   const std::vector<Parameter>& parameters() const;
   /// Fallback values that the getters have returned for absent keys.

@@ -203,8 +203,6 @@ ModelFile read_model_file(const DocumentSource& source, const std::vector<std::s
     file.parameters.push_back({"solver.resolution", exact_text(file.solver.resolution_s) + " s",
                                Origin::synthetic,
                                "of its expressions, as the file does not say it"});
-  file.warnings.insert(file.warnings.begin(), document.warnings().begin(),
-                       document.warnings().end());
   return file;
 }
 

@@ -56,8 +56,7 @@ struct ModelFile {
 
   std::vector<InputFile> files;  ///< all files that were read
   std::vector<Parameter> parameters;
-  std::vector<std::string> warnings;  ///< warnings about names of earlier versions, and masses that
-                                      ///< differ from those of a restart
+  std::vector<std::string> warnings;  ///< warnings about masses that differ from a restart's
 };
 
 /// The table of keys of model files, by section.

@@ -25,8 +25,6 @@ constexpr auto kGeometryKeys = std::to_array<Key>({
               {.choices = slit_edges}),
     Key::number("slit_depth", kNone,
                 "Of the neck: share of the rubber between rim and hole that is cut"),
-    Key::quantities("joint_point", "m", kNone,
-                    "Of earlier versions: the position of the interface \"top\"", {.size = 3}),
     Key::texts("fitted_to", kNone, "Published figures that the neck's dimensions were fitted to"),
     Key::text(
         "fitted_values", kNone,
@@ -181,10 +179,6 @@ bool has_neck(const StudyTable& geometry) {
 }
 
 NeckSection read_neck(const StudyTable& geometry, const StudyTable& mesh) {
-  if (geometry.has("joint_point"))
-    geometry.refuse("joint_point",
-                    "is the position of the [[interface]] \"top\" now; take this key away, and say "
-                    "there what differs");
   NeckSection neck;
   neck.dimensions = read_dimensions(geometry);
   neck.slits = read_slits(geometry);

@@ -203,7 +203,6 @@ Study study_of(const StudyDocument& document, const std::filesystem::path& path,
   study.files = document.files();
   study.parameters = document.parameters();
   study.defaults = document.defaults();
-  study.warnings = document.warnings();
   if (study.neck() != nullptr)
     forget_fit_of_changed_neck(root, study.parameters, *study.structure->neck);
   return study;

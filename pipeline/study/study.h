@@ -140,8 +140,7 @@ struct Study {
   std::vector<InputFile> tables;  ///< other files read for experiments: CSV files, bodies, …
   std::vector<InputFile> rules;   ///< files read for tests: regulations, measured curves
   std::vector<Parameter> parameters;
-  std::vector<std::string> warnings;  ///< warnings about names of earlier versions
-  std::vector<Parameter> defaults;    ///< values of keys that the study does not give
+  std::vector<Parameter> defaults;  ///< values of keys that the study does not give
 
   /// Finds a rigid body. @throws InputError if there is no such body, or if it is not rigid.
   const multibody::RigidBody& rigid_body(const std::string& name) const;

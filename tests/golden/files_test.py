@@ -72,7 +72,7 @@ class Files(unittest.TestCase):
         self.files = self.root / "tests/golden/files"
         shutil.copytree(FILES, self.files)
         shutil.copytree(FILES.parents[2] / "geometry/examples", self.root / "geometry/examples")
-        self.stored = self.files / "schema_1"
+        self.stored = self.files / "stored"
 
     def flexneck(self, *words):
         done = subprocess.run([FLEXNECK, *words], check=False, capture_output=True, text=True,

@@ -98,7 +98,7 @@ def write_msh(path):
 def write_mesh(path):
     nodes, elements, clamp = bar()
     with h5py.File(path, "w") as file:
-        file.attrs.update({"format": "flexneck mesh", "schema_version": 3, "units": "SI"})
+        file.attrs.update({"format": "flexneck mesh", "schema_version": 4, "units": "SI"})
         file["nodes"] = nodes
         file["nodes"].attrs["units"] = "m"
         file.create_group("materials/metal").attrs.update({

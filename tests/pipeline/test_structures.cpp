@@ -145,9 +145,6 @@ TEST_CASE("an interface needs a face set, or a node set that is fixed") {
   const TemporaryFolder folder;
   const std::string out = " -q -o " + folder.path().string();
   REQUIRE(run_flexneck("mesh" + out).exit_code == 0);
-  check_refused(
-      run_flexneck("modes --set 'geometry.joint_point=[\"0 in\", \"0 in\", \"5 in\"]'" + out),
-      "position of the [[interface]] \"top\"");
   check_refused(run_flexneck("modes --set 'modes.fixed=[]'" + out),
                 "interface.base.set: there is no face set 'bolts'");
 }

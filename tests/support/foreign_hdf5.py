@@ -15,7 +15,7 @@ with h5py.File(folder + "/other.h5", "w") as other:
 
 with h5py.File(folder + "/foreign.h5", "w") as file:
     file.attrs["format"] = "flexneck example"
-    file.attrs["schema_version"] = numpy.int8(1)
+    file.attrs["schema_version"] = numpy.int8(2)
     file.attrs["many"] = ["a text"] * 1000
     file.attrs["whole"] = 7800
     file.attrs["huge"] = numpy.uint64(2**64 - 1)

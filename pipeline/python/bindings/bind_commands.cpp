@@ -104,7 +104,6 @@ py::dict study(const std::string& path, const std::vector<std::string>& settings
   found["tests"] = names_of(read.tests);
   found["values"] = values(read.parameters);
   found["defaults"] = values(read.defaults);
-  found["warnings"] = read.warnings;
   return found;
 }
 
