@@ -63,7 +63,7 @@ TEST_CASE("a joint has the field's name or the paper's, and every kind is told i
   CHECK(kind_of("pin") == &multibody::kRevoluteJoint);
   CHECK(kind_of("revolute") == &multibody::kRevoluteJoint);
   const std::string bare = "axis = [1, 0, 0]\n";
-  CHECK(read_model(folder, with_elbow("kind = \"slider\"\n" + bare)).model.joints[1].kind ==
+  CHECK(read_model(folder, with_elbow("kind = \"prismatic\"\n" + bare)).model.joints[1].kind ==
         &multibody::kPrismaticJoint);
   CHECK(read_model(folder, with_elbow("kind = \"ball\"\n")).model.joints[1].kind ==
         &multibody::kSphericalJoint);

@@ -138,7 +138,7 @@ name = "centre"
 position = ["0 m", "0 m", "0 m"]
 [[joint]]
 name = "rail"
-kind = "slider"
+kind = "prismatic"
 axis = [1, 0, 0]
 lower = "hub.rail"
 upper = "block.centre"

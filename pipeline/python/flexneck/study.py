@@ -9,7 +9,7 @@ import typing
 import warnings
 
 from . import _core
-from .errors import VerificationWarning, warn
+from .errors import VerificationWarning
 from .folders import Folder, Path, execute
 from .mesh import Mesh
 from .results import Results
@@ -33,7 +33,6 @@ class Study(HasSettings):
         self._file = os.path.abspath(_core.named_file(str(study)))
         self._settings = checked(settings)
         self._read()
-        warn(self._content["warnings"])
 
     def _read(self) -> None:
         self._content = _core.study(self._file, self._settings)
