@@ -259,10 +259,9 @@ class Errors(InFolder):
         self.assertIn("50 steps", caught.exception.run.incomplete)
 
     def test_warnings_are_pythons(self):
-        (self.folder / "old.toml").write_text(
-            fn.Model(SPRING).text.replace('"prismatic"', '"slider"'))
-        with self.assertWarnsRegex(fn.ResultWarning, "slider"):
-            fn.Model(self.folder / "old.toml")
+        heavy = ["geometry.materials.aluminium.density=1.048e6 kg/m^3"]
+        with self.assertWarnsRegex(fn.ResultWarning, "was it a weight density in lbf/in"):
+            fn.Study("cantilever", heavy).mesh()
 
 
 class Threads(unittest.TestCase):
