@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "fe_modal/solve/assembled_system.h"
+#include "fe_modal/solve/linear_solver.h"
 #include "mesher/mesh/mesh.h"
 
 namespace flexneck::fe_modal {
