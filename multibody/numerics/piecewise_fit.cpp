@@ -250,7 +250,8 @@ bool PiecewiseFit::jumps(std::size_t k, int order) const {
       std::abs(sum_of(derivative_of(behind, order), -1) - sum_of(derivative_of(before, order), 1));
   const double shortest_s = std::min(before.length_s(), behind.length_s());
   const double rounding = std::max(tolerance(before), tolerance(behind));
-  if (order == 0) return jump > 1e-9 * scale_;
+  // A break is found only once the value has left its continuation by the margin of samples.
+  if (order == 0) return jump > 1e-9 * scale_ + 2 * kSampleMargin * rounding;
   if (order == 2)
     return jump > 1e-6 * curvature_ + kSecondGrowth * rounding / (shortest_s * shortest_s);
   // A break of the second derivative is found only once it has changed the value beyond rounding.

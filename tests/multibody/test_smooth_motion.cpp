@@ -33,6 +33,23 @@ TEST_CASE("a displacement given by a function has its exact velocity and acceler
   }
 }
 
+TEST_CASE("a bump that is short beside the run is a smooth displacement") {
+  // Times are rounded to 4e-15 s, which hides where the bump begins and ends by 6e-9 s: there the
+  // value has changed by 1.1e-9 of its largest.
+  constexpr double kPi = std::numbers::pi;
+  constexpr double kBegin = 1.731, kLength = 0.0006, kEnd = 17, kSize = 2.3483797431047226e-05;
+  const auto motion = SmoothMotion::of_displacement(
+      [](double t) {
+        const double x = (t - kBegin) / kLength;
+        return t > kBegin && t < kBegin + kLength ? kSize * (1 - std::cos(2 * kPi * x)) / 2 : 0.0;
+      },
+      kEnd);
+  const double steepest_m_s = kPi * kSize / kLength;
+  CHECK(motion.velocity_m_s(kBegin + kLength / 4) == Approx(steepest_m_s).epsilon(1e-7));
+  CHECK(motion.velocity_m_s(kBegin + 3 * kLength / 4) == Approx(-steepest_m_s).epsilon(1e-7));
+  CHECK(motion.displacement_m(kBegin + 2 * kLength) == 0);
+}
+
 TEST_CASE("an acceleration given by a function has its exact integrals, past kinks and jumps") {
   // Half a sine, then zero: a kink at 80 ms. Then a step at a time that halving never reaches.
   constexpr double kEnd = 0.08;
