@@ -25,6 +25,7 @@ struct Accuracy {
   /// always suffices. Ten modes of the neck need 28 vectors at 26 388 degrees of freedom and 30 at
   /// 191 388; with two fewer the search restarts and takes half as long again.
   Eigen::Index more_vectors;
+  bool takes_choices = true;  ///< obeys the options that a user chose
 };
 /// The error of an eigenvector is the residual over the relative gap to its neighbour: 1e-10 for
 /// frequencies 1 % apart.
@@ -32,7 +33,7 @@ constexpr Accuracy kOfVectors{1e-12, 10};
 /// An eigenvalue is exact to the square.
 constexpr Accuracy kOfValues{1e-8, 2};
 /// Of a pair that is only looked for to see that none is missing.
-constexpr Accuracy kOfNext{1e-3, 6};
+constexpr Accuracy kOfNext{1e-3, 6, false};
 /// A pair beside those found is one of them that was missed if its eigenvalue is below the last
 /// one's by more than this share, or a copy of it if it is not above it by more.
 constexpr double kSame = 1e-7;
@@ -107,7 +108,7 @@ class Search {
     const VecHandle first = column_vector(start, 0, inverse_.ranks());
     Vec initial = first.get();
     require(EPSSetInitialSpace(eps(), 1, &initial), kSearching);
-    if (&accuracy != &kOfNext) require(EPSSetFromOptions(eps()), kSearching);
+    if (accuracy.takes_choices) require(EPSSetFromOptions(eps()), kSearching);
     const PetscErrorCode code = EPSSolve(eps());
     for (Mat matrix : operators_) rethrow_from(matrix);
     require(code, kSearching);
@@ -126,7 +127,8 @@ class Search {
   }
 
  private:
-  /// "krylovschur with sinvert: 12 pairs, residuals up to 3e-14; 28 vectors, restarted 0 times"
+  /// "SLEPc's krylovschur with sinvert: 12 pairs, residuals up to 3e-14; 28 vectors, restarted 0
+  /// times"
   std::string describe(PetscInt converged) const {
     EPSType method = nullptr;
     STType transform = nullptr;
@@ -142,9 +144,10 @@ class Search {
       require(EPSGetErrorEstimate(eps(), k, &error), kSearching);
       largest = std::max(largest, error);
     }
-    return std::string(method) + " with " + transform + ": " + std::to_string(converged) +
-           " pairs, residuals up to " + rounded_text(largest, 2) + "; " + std::to_string(vectors) +
-           " vectors, restarted " + std::to_string(iterations - 1) + " times";
+    return "SLEPc's " + std::string(method) + " with " + transform + ": " +
+           std::to_string(converged) + " pairs, residuals up to " + rounded_text(largest, 2) +
+           "; " + std::to_string(vectors) + " vectors, restarted " +
+           std::to_string(iterations - 1) + " times";
   }
 
   const LinearSolver& inverse_;
