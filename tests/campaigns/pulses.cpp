@@ -12,6 +12,7 @@
 
 #include <fmt/core.h>
 
+#include "geometry/foundation/error.h"
 #include "multibody/simulation/simulation.h"
 #include "pipeline/model/model_file.h"
 #include "tests/campaigns/campaign.h"
@@ -189,6 +190,8 @@ std::optional<std::string> compare(const Drawn& of, const std::string& file) {
     std::filesystem::remove(file);
     return {};
   }
+  // A run that says itself that it went wrong is not wrong without a word.
+  if (!history.warnings.empty()) throw flexneck::ComputationError(history.warnings.front());
   return fmt::format(
       "{}: drive {}, {} over {:.6g} s: the sled is off by {:.2e}, the block by {:.2e} "
       "of {:.3g}",
