@@ -6,7 +6,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// A function that is there if the BLAS is OpenBLAS, otherwise null.
+/// Finds a function of the BLAS by its name; null if the BLAS is not OpenBLAS.
 template <typename Function>
 Function* find(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
@@ -22,8 +22,8 @@ std::string chosen_kernels() {
 void call_blas_alone() {
   for (const char* set_number : {"openblas_set_num_threads", "omp_set_num_threads"})
     if (const auto set = find<void(int)>(set_number)) set(1);
-  // CHOLMOD asks for four threads wherever it asks for any, whatever the number of processors:
-  // where no level of OpenMP is active it gets one.
+  // CHOLMOD asks for four threads wherever it asks for any, whatever the number of processors: with
+  // zero levels of OpenMP allowed to be active it gets one.
   if (const auto set_levels = find<void(int)>("omp_set_max_active_levels")) set_levels(0);
 }
 

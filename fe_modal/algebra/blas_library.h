@@ -5,12 +5,13 @@
 
 namespace flexneck::fe_modal {
 
-/// What the calling thread asks of the BLAS and of OpenMP it does alone: between the thousands of
-/// small products of a factorisation threads wait for one another, and sums would come in another
-/// order for each number of them. A session begins with it.
+/// Makes the calling thread run the BLAS and OpenMP on one thread: between the thousands of small
+/// products of a factorisation threads wait for one another, and sums would come in another order
+/// for each number of threads. Each session begins with this call.
 void call_blas_alone();
 
-/// "OpenBLAS 0.3.21, SkylakeX", by which results differ in rounding; "unknown" of another BLAS.
+/// Version and kernels of the BLAS, "OpenBLAS 0.3.21, SkylakeX", by which results differ in
+/// rounding; "unknown" for another BLAS.
 std::string blas_version();
 
 }  // namespace flexneck::fe_modal

@@ -12,8 +12,8 @@ inline MPI_Comm communicator(const Ranks& ranks) {
   return ranks.are_many() ? MPI_COMM_WORLD : MPI_COMM_SELF;
 }
 
-/// @throws ComputationError for a call of MPI that has not succeeded, where MPI does not end the
-/// process itself.
+/// Checks the code that a call of MPI returned.
+/// @throws ComputationError if the call has failed and MPI has not ended the process itself.
 void require_mpi(int code);
 
 }  // namespace flexneck::fe_modal

@@ -9,11 +9,11 @@
 
 namespace flexneck::fe_modal {
 
-/// Which rank has which rows of vectors and matrices: those of the first rank come first, three for
-/// each block of degrees of freedom.
+/// Distribution of the rows of vectors and matrices over the ranks: rows of the first rank come
+/// first, three for each block of degrees of freedom.
 class DofLayout {
  public:
-  /// All on this process.
+  /// Puts all rows on this process.
   explicit DofLayout(Eigen::Index block_count, const Ranks& alone = {});
   /// @param block_counts (ranks) the same on all ranks
   DofLayout(const Ranks& ranks, const std::vector<int>& block_counts);
@@ -23,11 +23,11 @@ class DofLayout {
   Eigen::Index own_dof_count() const { return own_dof_count_; }
   Eigen::Index first_own_dof() const { return first_own_dof_; }
 
-  /// This rank's rows of columns that it has whole, (dofs, k) -> (own dofs, k).
+  /// This rank's rows of columns that are whole on it, (dofs, k) -> (own dofs, k).
   Eigen::MatrixXd own_rows(const Eigen::MatrixXd& whole) const {
     return whole.middleRows(first_own_dof_, own_dof_count_);
   }
-  /// Collective: the whole columns on every rank, (own dofs, k) -> (dofs, k).
+  /// Collective: gathers the whole columns on every rank, (own dofs, k) -> (dofs, k).
   Eigen::MatrixXd whole(const Eigen::MatrixXd& own) const;
 
  private:
@@ -35,8 +35,8 @@ class DofLayout {
   Eigen::Index dof_count_ = 0;
   Eigen::Index own_dof_count_ = 0;
   Eigen::Index first_own_dof_ = 0;
-  std::vector<int> counts_;   ///< (ranks) rows that each has; empty in a process alone
-  std::vector<int> offsets_;  ///< (ranks) rows of the ranks before; likewise
+  std::vector<int> counts_;   ///< (ranks) number of rows of each; empty in a serial run
+  std::vector<int> offsets_;  ///< (ranks) number of rows of the ranks before; empty in a serial run
 };
 
 }  // namespace flexneck::fe_modal

@@ -12,9 +12,10 @@ namespace flexneck::fe_modal {
 struct EigenPairs {
   Eigen::VectorXd values;   ///< (m), ascending, 1/s^2
   Eigen::MatrixXd vectors;  ///< (dofs, m), x^T M x = 1
-  /// The eigenvalue above the last, less exactly; infinite if there is none or it is not known.
+  /// The eigenvalue above the last, to lower accuracy; infinite if there is none or it is not
+  /// known.
   double next = std::numeric_limits<double>::infinity();
-  std::string search = {};  ///< what SLEPc says of how they were found
+  std::string search = {};  ///< SLEPc's account of the search
 };
 
 }  // namespace flexneck::fe_modal

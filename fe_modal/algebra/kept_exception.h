@@ -8,11 +8,12 @@
 
 namespace flexneck::fe_modal {
 
-/// Carries an exception past the C frames of PETSc and SLEPc, which it must not cross: what they
-/// call keeps it and returns an error code, and whoever called them throws it again.
+/// Carries an exception past the C frames of PETSc and SLEPc, which it must not cross: the function
+/// that they call keeps it and returns an error code, and the caller of PETSc throws it again.
 class KeptException {
  public:
-  /// Of a function that PETSc calls. @return 0, or an error code if `work` has thrown
+  /// Runs the work of a function that PETSc calls.
+  /// @return 0, or an error code if `work` has thrown
   template <typename Work>
   PetscErrorCode keep(Work&& work) noexcept {
     try {
@@ -24,7 +25,7 @@ class KeptException {
     }
   }
 
-  /// After a call of PETSc: throws what was kept, once.
+  /// Throws the kept exception, once; for use after a call of PETSc.
   void rethrow() {
     if (kept_) std::rethrow_exception(std::exchange(kept_, nullptr));
   }

@@ -5,13 +5,13 @@
 
 #include "fe_modal/algebra/petsc_handles.h"
 
-// After a header of PETSc: it does not include what it needs.
+// This header follows one of PETSc, since it does not include what it needs.
 #include <petscblaslapack.h>
 
 namespace flexneck::fe_modal {
 namespace {
 
-/// For BLAS a step between columns is at least one row, also where there is no row.
+/// Step between columns: the BLAS requires at least one row, even of a matrix without rows.
 PetscBLASInt stride(const MatrixView& matrix) {
   return static_cast<PetscBLASInt>(std::max<Eigen::Index>(1, matrix.outerStride()));
 }

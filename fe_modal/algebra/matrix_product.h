@@ -22,7 +22,7 @@ void multiply_transpose(double factor, const MatrixView& a, const MatrixView& b,
                         Eigen::Ref<Eigen::MatrixXd> result);
 /// a^T b over the rows of all ranks. Collective.
 Eigen::MatrixXd inner_products(const Ranks& ranks, const MatrixView& a, const MatrixView& b);
-/// Each column of a with that of b, over the rows of all ranks. Collective.
+/// Products of each column of a with that of b, over the rows of all ranks. Collective.
 Eigen::VectorXd column_products(const Ranks& ranks, const MatrixView& a, const MatrixView& b);
 
 }  // namespace flexneck::fe_modal

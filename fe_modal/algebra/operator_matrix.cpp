@@ -8,7 +8,7 @@
 
 namespace flexneck::fe_modal {
 
-/// What a shell points to.
+/// Data that a PETSc shell matrix points to.
 struct OperatorMatrix::Context {
   BlockOperator apply;
   KeptException failure;
@@ -19,7 +19,7 @@ namespace {
 constexpr const char* kMaking = "making a matrix of an operator";
 constexpr const char* kUsing = "using a matrix of an operator";
 
-/// What PETSc calls for y = A x.
+/// Function that PETSc calls for y = A x.
 PetscErrorCode multiply(Mat shell, Vec x, Vec y) {
   OperatorMatrix::Context* context = nullptr;
   PetscInt size = 0;
@@ -39,7 +39,7 @@ PetscErrorCode multiply(Mat shell, Vec x, Vec y) {
   return code != 0 ? code : VecRestoreArrayRead(x, &in);
 }
 
-/// Null for matrices that are no shells.
+/// Context of a shell matrix; null for other matrices.
 OperatorMatrix::Context* context_of(Mat matrix) {
   PetscBool is_shell = PETSC_FALSE;
   OperatorMatrix::Context* context = nullptr;

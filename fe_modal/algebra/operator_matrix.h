@@ -10,18 +10,18 @@
 
 namespace flexneck::fe_modal {
 
-/// A linear map of the free degrees of freedom, applied to each column: this rank's rows, (own
-/// dofs, k).
+/// Linear map of the free degrees of freedom, applied to each column: this rank's rows, (own dofs,
+/// k).
 using BlockOperator = std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>;
 
-/// A symmetric linear map of the degrees of freedom as a matrix for PETSc and SLEPc, good for
-/// products alone; on many ranks each gets and gives its own rows. All shells of this library are
-/// made here: block_product() finds the map behind them and applies it to all columns at once.
+/// Symmetric linear map of the degrees of freedom as a matrix for PETSc and SLEPc, which supports
+/// products alone; each rank gets and gives its own rows. All shells of this library are made here:
+/// block_product() finds the map behind them and applies it to all columns at once.
 class OperatorMatrix {
  public:
   struct Context;
 
-  /// @param own_size rows of this rank
+  /// @param own_size number of rows of this rank
   OperatorMatrix(Eigen::Index own_size, BlockOperator apply, const Ranks& ranks = {});
   ~OperatorMatrix();
   OperatorMatrix(OperatorMatrix&& other) noexcept;
@@ -34,11 +34,11 @@ class OperatorMatrix {
   MatHandle shell_;
 };
 
-/// What is behind a matrix that OperatorMatrix has made; null for others.
+/// The map behind a matrix that OperatorMatrix has made; null for other matrices.
 const BlockOperator* operator_behind(Mat matrix);
 
-/// After PETSc or SLEPc failed with this matrix: throws what the map behind it has thrown, if that
-/// was the cause.
+/// Throws the exception of the map behind a matrix, if this was the cause of a failure of PETSc or
+/// SLEPc with that matrix.
 void rethrow_from(Mat matrix);
 
 }  // namespace flexneck::fe_modal

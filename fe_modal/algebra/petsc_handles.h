@@ -13,7 +13,7 @@
 namespace flexneck::fe_modal {
 
 /// Turns an error code of PETSc or SLEPc into an exception.
-/// @param doing what was attempted, e.g. "assembling the stiffness matrix"
+/// @param doing the attempted action, e.g. "assembling the stiffness matrix"
 /// @throws ComputationError if the code is not zero.
 void require(PetscErrorCode code, std::string_view doing);
 
@@ -35,7 +35,7 @@ class PetscHandle {
   }
 
   Object get() const { return object_; }
-  /// For functions that create the object: frees the present one.
+  /// Frees the present object and returns a place for a new one, for functions that create it.
   Object* out() {
     reset();
     return &object_;
@@ -43,7 +43,7 @@ class PetscHandle {
 
  private:
   void reset() {
-    // A failing destructor of PETSc leaves nothing that a caller could do.
+    // A caller could do nothing about a failing destructor of PETSc.
     if (object_ != nullptr) static_cast<void>(destroy(&object_));
     object_ = nullptr;
   }
@@ -57,20 +57,20 @@ using VecHandle = PetscHandle<Vec, VecDestroy>;
 using EpsHandle = PetscHandle<EPS, EPSDestroy>;
 using KspHandle = PetscHandle<KSP, KSPDestroy>;
 
-/// A vector of the ranks on this rank's rows in memory that outlives it.
+/// Distributed vector on this rank's rows in memory that outlives it.
 VecHandle vector_on(std::span<const double> values, const Ranks& ranks = {});
-/// A vector on a column of a matrix that outlives it.
+/// Vector on a column of a matrix that outlives it.
 VecHandle column_vector(const Eigen::MatrixXd& columns, Eigen::Index column,
                         const Ranks& ranks = {});
-/// A dense matrix on this rank's rows, (own rows, k), in memory that outlives it.
+/// Dense matrix on this rank's rows, (own rows, k), in memory that outlives it.
 MatHandle dense_on(const Eigen::MatrixXd& columns, const Ranks& ranks = {});
 
-/// INFOG(number) of MUMPS's user's guide, of a factor that MUMPS makes.
+/// INFOG(number) as in the user's guide of MUMPS, of a factor that MUMPS has computed.
 PetscInt infog(Mat factor, PetscInt number);
 
 /// Number of rows, over all ranks.
 Eigen::Index size_of(Mat matrix);
-/// The matrix, or operator, times each column: this rank's rows, (own rows, k).
+/// Product of the matrix, or operator, with each column: this rank's rows, (own rows, k).
 Eigen::MatrixXd block_product(Mat matrix, const Eigen::MatrixXd& columns);
 
 }  // namespace flexneck::fe_modal

@@ -20,10 +20,11 @@ namespace flexneck::fe_modal {
 
 namespace {
 
-/// While MPI starts: in a process that neither mpirun nor a batch system has started, Open MPI
-/// would spend a third of a second on a daemon and on network connections that are never used. What
-/// the user has set stays; what this and Open MPI set goes again, or an mpirun that this process
-/// starts later would take itself for a part of it.
+/// Settings of Open MPI while MPI starts in a process that neither mpirun nor a batch system has
+/// started: without them Open MPI would spend a third of a second on a daemon and on network
+/// connections that are never used. Variables that the user has set stay; those that this class and
+/// Open MPI set are removed again, or an mpirun that this process starts later would take itself
+/// for a part of it.
 class StartAlone {
  public:
   StartAlone() {
@@ -35,8 +36,8 @@ class StartAlone {
     set("OMPI_MCA_ess_singleton_isolated", "1");
     set("OMPI_MCA_btl", "self");
     set("OMPI_MCA_pml", "ob1");
-    // Alone it shares no files. Two processes at once that make and remove the folder for them get
-    // in each other's way.
+    // A serial run shares no files. Two processes that create and remove the folder for shared
+    // files at the same time would disturb each other.
     set("OMPI_MCA_orte_create_session_dirs", "0");
   }
   ~StartAlone() {
@@ -52,7 +53,7 @@ class StartAlone {
     constexpr int kKeepTheUsers = 0;
     setenv(name, value, kKeepTheUsers);
   }
-  /// Names of those of MPI.
+  /// Names of the environment variables of MPI.
   static std::set<std::string> variables() {
     std::set<std::string> names;
     for (char** variable = environ; *variable != nullptr; ++variable) {
@@ -67,13 +68,13 @@ class StartAlone {
   std::set<std::string> before_;
 };
 
-/// Of the last error, in PETSc's words.
+/// PETSc's message of the last error.
 std::string& petsc_message() {
   thread_local std::string message;
   return message;
 }
 
-/// Errors come back as codes, without a trace on the terminal.
+/// Keeps the message: errors are returned as codes, without a trace on the terminal.
 PetscErrorCode keep_message(MPI_Comm /*ranks*/, int /*line*/, const char* /*function*/,
                             const char* /*file*/, PetscErrorCode code, PetscErrorType type,
                             const char* message, void* /*context*/) {
@@ -99,8 +100,8 @@ PetscSession::PetscSession(Start /*start*/) {
   if (finalized != 0) throw ComputationError("PETSc can be initialised once in a process only");
   PETSC_MPI_THREAD_REQUIRED = MPI_THREAD_SERIALIZED;
   // The process keeps its signal handlers, and neither a user's .petscrc nor the environment nor
-  // the command line steers the solvers: PETSc sees these arguments only. At its end it tells
-  // nobody which options of the session nothing has asked for.
+  // the command line affects the solvers: PETSc sees these arguments only. At its end it does not
+  // report options of the session that were never asked for.
   unsetenv("PETSC_OPTIONS");
   char name[] = "flexneck";
   char no_signals[] = "-no_signal_handler";
@@ -111,7 +112,7 @@ PetscSession::PetscSession(Start /*start*/) {
   char** argument_list = arguments;
   int argument_count = 5;
   const PetscErrorCode code = SlepcInitialize(&argument_count, &argument_list, nullptr, nullptr);
-  if (code != 0) {  // how far they came they do not say, but MPI does
+  if (code != 0) {  // SLEPc does not say how far it came, but MPI does
     int has_begun = 0;
     MPI_Initialized(&has_begun);
     if (has_begun != 0) MPI_Finalize();
@@ -119,7 +120,7 @@ PetscSession::PetscSession(Start /*start*/) {
   require(code, "initialising PETSc");
 }
 
-// A constructor that delegates ends like any object if what comes after throws: finalised.
+// The constructor delegates, so that the session is finalised if the rest of it throws.
 PetscSession::PetscSession() : PetscSession(Start()) {
   if (!is_outer_) return;
   PetscErrorPrintf = PetscErrorPrintfNone;

@@ -6,9 +6,10 @@
 
 namespace flexneck::fe_modal {
 
-/// Keeps PETSc and SLEPc (and MPI) initialised while it lives. All that solves needs it. MPI begins
-/// once in a process: a session within the life of another one shares it, after the end of that one
-/// there is none. One thread at a time may solve, whichever began it.
+/// Keeps PETSc, SLEPc and MPI initialised while it lives; all solvers need it. MPI can be
+/// initialised once in a process: a session within the life of another one shares it, and after the
+/// end of the outer one there can be none. One thread at a time may solve, whichever began the
+/// session.
 class PetscSession {
  public:
   PetscSession();
@@ -20,14 +21,14 @@ class PetscSession {
   struct Start {};
   explicit PetscSession(Start start);
 
-  bool is_outer_ = true;  ///< which ends what it has begun
+  bool is_outer_ = true;  ///< the outer session finalises the libraries
 };
 
-/// Options of every session: CHOLMOD prints nothing of matrices that are not positive definite, and
-/// takes the order of elimination that it is given (elimination_order.h).
+/// Options of every session: CHOLMOD prints nothing for matrices that are not positive definite,
+/// and uses the order of elimination that it is given (elimination_order.h).
 inline constexpr const char* kSessionOptions = "-st_mat_cholmod_print 0 -st_mat_cholmod_nmethods 1";
 
-/// What PETSc said of this thread's last error, once; empty if it said nothing.
+/// PETSc's message of this thread's last error, returned once; empty if there is none.
 std::string last_petsc_message();
 
 /// Versions of the BLAS with its kernels, PETSc, SLEPc and SuiteSparse, for the provenance.

@@ -11,11 +11,13 @@ namespace flexneck::fe_modal {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-/// Ranks that fail alike do so within this time of one another.
+/// Time within which ranks that fail for the same reason do so.
 constexpr std::chrono::seconds kPatience{3};
 constexpr std::chrono::milliseconds kNap{2};
 
-/// Waits for all ranks without keeping the processor busy; one that has failed not for long.
+/// Waits for all ranks without keeping the processor busy; a rank that has failed waits only
+/// kPatience.
+/// @return true if all have come
 bool all_come(const Ranks& ranks, bool has_failed) {
   MPI_Request request = MPI_REQUEST_NULL;
   require_mpi(MPI_Ibarrier(communicator(ranks), &request));
@@ -32,11 +34,11 @@ bool all_come(const Ranks& ranks, bool has_failed) {
 }  // namespace
 
 bool RankSession::is_launched() {
-  // Open MPI's mpirun, and MPICH and others that start processes by PMI, tell how many there are.
+  // mpirun of Open MPI, and MPICH and other launchers that use PMI, set the number of processes.
   for (const char* const name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
     if (const char* const size = std::getenv(name)) return std::atoi(size) > 1;
   }
-  return std::getenv("PMIX_RANK") != nullptr;  // srun and others that start processes by PMIx
+  return std::getenv("PMIX_RANK") != nullptr;  // srun and other launchers that use PMIx
 }
 
 int RankSession::end(const RankOutcome& outcome, const Progress& tell) const {

@@ -9,25 +9,26 @@
 
 namespace flexneck::fe_modal {
 
-/// How a command has ended on a rank.
+/// Outcome of a command on a rank.
 struct RankOutcome {
   int exit_code = 0;
-  std::string failure = {};  ///< what to tell; empty: nothing has failed
+  std::string failure = {};  ///< message; empty if nothing has failed
 };
 
 /// PETSc on processes that mpirun or a batch system has started together.
 class RankSession {
  public:
-  /// Whether this process was started so; known without MPI.
+  /// True if mpirun or a batch system has started this process; determined without MPI.
   static bool is_launched();
 
   RankSession() : ranks_(Ranks::all()) {}
 
   const Ranks& ranks() const { return ranks_; }
 
-  /// All ranks meet here at the end. Where ranks have failed, the first of these tells. If others
-  /// do not come, since they wait for one that has failed alone, that one tells and ends all.
-  /// @param tell gets the line
+  /// Synchronises all ranks at the end. If ranks have failed, the first of them reports. If others
+  /// do not come, since they wait for a rank that has failed alone, that rank reports and ends all
+  /// of them.
+  /// @param tell receives the message
   /// @return the exit code, the same on all ranks
   int end(const RankOutcome& outcome, const Progress& tell) const;
 

@@ -23,7 +23,7 @@ constexpr std::chrono::microseconds kNap{200};
 enum class Kind { computation, input, memory };
 
 struct RankFailure {
-  std::string text;  ///< empty: none
+  std::string text;  ///< empty if nothing has failed
   Kind kind = Kind::computation;
 };
 
@@ -88,8 +88,8 @@ int Ranks::on_this_machine() const {
 
 void Ranks::sum(Eigen::Ref<Eigen::MatrixXd> values) const {
   if (!are_many()) return;
-  Eigen::MatrixXd sums = values;  // without gaps between columns
-  // Not MPI_Allreduce, which need not add in the same order on all ranks.
+  Eigen::MatrixXd sums = values;  // copy without gaps between columns
+  // MPI_Allreduce is not used: it need not add in the same order on all ranks.
   const auto size = static_cast<int>(sums.size());
   require_mpi(MPI_Reduce(is_first() ? MPI_IN_PLACE : sums.data(), sums.data(), size, MPI_DOUBLE,
                          MPI_SUM, 0, communicator(*this)));
@@ -107,7 +107,7 @@ std::uint64_t Ranks::of_first(std::uint64_t value) const {
   if (!are_many()) return value;
   MPI_Request request = MPI_REQUEST_NULL;
   require_mpi(MPI_Ibcast(&value, 1, MPI_UINT64_T, 0, communicator(*this), &request));
-  // The first rank may have much else to do: whoever waits long looks at times only.
+  // The first rank may be busy for long: a rank that waits for it polls at intervals.
   for (int is_complete = 0; is_complete == 0;) {
     require_mpi(MPI_Test(&request, &is_complete, MPI_STATUS_IGNORE));
     if (is_complete == 0) std::this_thread::sleep_for(kNap);

@@ -16,19 +16,19 @@ namespace flexneck::fe_modal {
 
 Eigen::VectorXd frequencies_Hz(const Eigen::VectorXd& eigenvalues);
 
-/// Position of an interface among options.interfaces; it is known to be there.
+/// Index of an interface in options.interfaces; it is known to be there.
 std::size_t interface_index(const ModalOptions& options, const std::string& name);
 
-/// A body that is assembled and factorised.
+/// An assembled and factorised body.
 struct SolvedBody {
   const AssembledSystem& system;
   const LinearSolver& inverse;
-  const std::vector<RigidAverage>& averages;  ///< of the options' interfaces
-  const std::vector<InterfaceLoads>& loads;   ///< likewise
+  const std::vector<RigidAverage>& averages;  ///< one for each of the options' interfaces
+  const std::vector<InterfaceLoads>& loads;   ///< one for each of the options' interfaces
 };
 
-/// The lowest frequencies with each of the options' bodies attached.
-/// @param shapes takes the modes with each body, of unit mass together, if it is not null
+/// Lowest frequencies with each of the options' bodies attached.
+/// @param shapes takes the modes with each body, normalised to unit mass with it, if it is not null
 std::vector<AttachedFrequencies> attach_bodies(const SolvedBody& solved,
                                                std::vector<std::vector<Eigen::Matrix3Xd>>* shapes);
 

@@ -22,7 +22,7 @@ Eigen::MatrixXd averages_of(const RigidAverage& region, const Displacements& fie
 Eigen::MatrixXd average_derivative(const mesher::Mesh& mesh, const mesher::FaceSet& faces,
                                    const Eigen::Vector3d& point_m, const Eigen::Matrix3Xd& velocity,
                                    const Displacements& fields) {
-  constexpr double kStep = 1e-3;  // of the region's extent
+  constexpr double kStep = 1e-3;  // fraction of the region's extent
   const mesher::NodeSet nodes = mesher::nodes_of(faces);
   const auto positions = mesher::positions_of(mesh);
   Eigen::AlignedBox3d region;
@@ -36,7 +36,7 @@ Eigen::MatrixXd average_derivative(const mesher::Mesh& mesh, const mesher::FaceS
   if (fastest == 0) return derivative;
 
   const double step = kStep * extent / fastest;
-  mesher::Mesh moved;  // its nodes are all that an average of given faces asks for
+  mesher::Mesh moved;  // the average over given faces needs only the nodes
   moved.nodes = mesh.nodes;
   constexpr std::array<std::pair<double, double>, 4> kRule = {
       {{-2, 1.0 / 12}, {-1, -8.0 / 12}, {1, 8.0 / 12}, {2, -1.0 / 12}}};

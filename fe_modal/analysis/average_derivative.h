@@ -12,11 +12,12 @@ namespace flexneck::fe_modal {
 /// Average motions of the fields, (6, fields).
 Eigen::MatrixXd averages_of(const RigidAverage& region, const Displacements& fields);
 
-/// How the average motions of a face set about a fixed point (RigidAverage) change when the nodes
-/// move, the fields' nodal values being fixed: per unit of the parameter that the nodes move with.
-/// By differences of fourth order over a thousandth of the region: exact to 1e-10 of the motions.
+/// Derivative of the average motions of a face set about a fixed point (RigidAverage) when the
+/// nodes move, the fields' nodal values being fixed: per unit of the parameter that the nodes move
+/// with. Finite differences of fourth order over a thousandth of the region: exact to 1e-10 of the
+/// motions.
 /// @param velocity (3, n), m per unit of the parameter
-/// @param fields on all nodes
+/// @param fields displacements of all nodes
 /// @return (6, fields), translation (3) and rotation (3)
 Eigen::MatrixXd average_derivative(const mesher::Mesh& mesh, const mesher::FaceSet& faces,
                                    const Eigen::Vector3d& point_m, const Eigen::Matrix3Xd& velocity,

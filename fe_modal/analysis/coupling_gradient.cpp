@@ -13,7 +13,7 @@ namespace {
 
 /// K u and M u of all fields at the nodes of a coupling, N and kg m; zero elsewhere.
 struct NodalForces {
-  std::vector<Eigen::Matrix3Xd> elastic;  ///< (3, n) of each field
+  std::vector<Eigen::Matrix3Xd> elastic;  ///< (3, n) for each field
   std::vector<Eigen::Matrix3Xd> inertial;
 };
 
@@ -36,7 +36,7 @@ void add_element(std::span<const std::int32_t> nodes, const std::vector<bool>& i
   }
 }
 
-/// By the elements that touch the coupling.
+/// Sums the forces of the elements that touch the coupling.
 NodalForces forces_on(const std::vector<bool>& is_coupled, const mesher::Mesh& mesh,
                       const FormulationChoice& formulation, const Displacements& fields) {
   const Eigen::Matrix3Xd zero =

@@ -10,10 +10,10 @@
 
 namespace flexneck::fe_modal {
 
-/// Adds to a gradient what rigid couplings change in the fields themselves: where a node of a
-/// coupling moves with v, its displacement t + theta x (x - point) changes by theta x v, and
-/// u^T A w by (A u) . (theta_w x v) + (A w) . (theta_u x v) with A = K - lambda M.
-/// @param nodes of the coupling
+/// Adds to a gradient the contribution of rigid couplings, which change the fields themselves:
+/// where a node of a coupling moves with v, its displacement t + theta x (x - point) changes by
+/// theta x v, and u^T A w by (A u) . (theta_w x v) + (A w) . (theta_u x v) with A = K - lambda M.
+/// @param nodes those of the coupling
 /// @param rotations theta of each field, (3, fields), rad
 /// @throws InputError and ComputationError as element_scheme and ElementKernel.
 void add_coupling_gradient(const mesher::Mesh& mesh, const FormulationChoice& formulation,

@@ -20,32 +20,35 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// Estimated error over the change, relative, that a finer mesh makes.
+/// Ratio of the estimated error to the relative change that a finer mesh makes.
 ///
-/// With every element cut in eight the error becomes 2^-p of what it was, so that it is
-/// 1 / (1 - 2^-p) of the change: at most two with the order p = 1 that singular edges leave at
-/// worst. For meshes so coarse that they do not show their order yet comes a safety factor of 1.5
-/// (Roache, J. Fluids Eng. 116 (1994) 405, multiplies likewise).
+/// With every element cut in eight the error becomes 2^-p of its value, so that it is 1 / (1 -
+/// 2^-p) of the change: at most two with the order p = 1 that singular edges leave at worst. A
+/// safety factor of 1.5 is for meshes so coarse that they do not show their order yet (Roache, J.
+/// Fluids Eng. 116 (1994) 405, uses such a factor as well).
 constexpr double kOfCut = 1.5 * 2;
-/// Quadratic elements in place of linear ones leave a part of the error.
+/// This ratio for quadratic elements in place of linear ones, which leave a part of the error.
 constexpr double kOfRaised = 1.5;
-/// Modes this close in frequency may turn into one another from mesh to mesh: they are one shape.
-/// Rounding sets those of a square beam 1600 times as long as thick 1.2 % apart.
+/// Relative difference of frequencies below which modes may mix differently on different meshes:
+/// they count as one shape. Rounding sets those of a square beam 1600 times as long as thick 1.2 %
+/// apart.
 constexpr double kOneShape = 2e-2;
-/// Less similar shapes are not the same mode, and nothing is known of the error.
+/// Modal assurance criterion below which shapes are not the same mode, and the error is unknown.
 constexpr double kSameMode = 0.8;
 constexpr double kUnknown = 1;
-/// Modes of the finer mesh beyond those of the coarse one, with which they may change places.
+/// Number of modes of the finer mesh beyond those of the coarse one, with which they may change
+/// places.
 constexpr Eigen::Index kMore = 2;
 constexpr double kCutInEight = 8;
-/// So many times as many are searched for one that changes places with many.
+/// Largest ratio of the number of fine modes to that of coarse ones, for a mode that changes places
+/// with many.
 constexpr Eigen::Index kMost = 8;
 
 double hertz(double eigenvalue) {
   return std::sqrt(std::max(eigenvalue, 0.0)) / (2 * std::numbers::pi);
 }
 
-/// Finds a coarse mode among the finer ones.
+/// Compares a coarse mode with the finer ones that have its shape.
 /// @param similarity its modal assurance criterion with each of them
 MeshError compare(double coarse_Hz, const Eigen::VectorXd& fine_Hz,
                   const Eigen::VectorXd& similarity, double error_over_change) {
@@ -59,7 +62,7 @@ MeshError compare(double coarse_Hz, const Eigen::VectorXd& fine_Hz,
     weighted += similarity[j] * fine_Hz[j];
   }
   result.refined_Hz = weighted / result.mac;
-  // At the nodes of the coarse mesh fine modes are not quite orthogonal.
+  // Fine modes are not quite orthogonal at the nodes of the coarse mesh.
   result.mac = std::min(result.mac, 1.0);
   result.error = result.mac < kSameMode
                      ? kUnknown
@@ -67,13 +70,13 @@ MeshError compare(double coarse_Hz, const Eigen::VectorXd& fine_Hz,
   return result;
 }
 
-/// A finer mesh, and what the change that it makes is multiplied with.
+/// A finer mesh, and the factor from the change that it makes to the error.
 struct FinerMesh {
   mesher::Mesh mesh;
   double error_over_change;
 };
 
-/// Whether all nodes of some part lie on the surface of the body.
+/// Returns whether all nodes of some part lie on the surface of the body.
 bool has_thin_part(const mesher::Mesh& mesh) {
   std::vector<bool> is_outside(mesh.nodes.size(), false);
   for (const mesher::Facet& side : mesher::boundary_facets(mesh))
@@ -88,9 +91,10 @@ bool has_thin_part(const mesher::Mesh& mesh) {
   return std::any_of(is_thin.begin(), is_thin.end(), [](const auto& part) { return part.second; });
 }
 
-/// Linear elements in bending stay as much too stiff when they are cut; quadratic ones tell by how
-/// much. The warping of a square that twists vanishes in one of these, and shows in four.
-/// @throws InputError where memory does not even hold the mesh.
+/// Chooses the finer mesh. Linear elements in bending remain as much too stiff when they are cut;
+/// quadratic ones in their place show by how much. The warping of a square in torsion vanishes in
+/// one quadratic element, and shows in four.
+/// @throws InputError if memory does not hold the mesh itself.
 FinerMesh finer_mesh(const mesher::Mesh& mesh, int mode_count) {
   const bool has_linear = std::any_of(
       mesh.blocks.begin(), mesh.blocks.end(),
@@ -108,7 +112,8 @@ FinerMesh finer_mesh(const mesher::Mesh& mesh, int mode_count) {
   return {std::move(raised), kOfRaised};
 }
 
-/// The modal assurance criteria (coarse, fine) of modes of a finer mesh, in the coarse mass.
+/// Modal assurance criteria (coarse, fine) with modes of a finer mesh, in the metric of the coarse
+/// mass.
 Eigen::MatrixXd similarity(const AssembledSystem& coarse, const EigenPairs& pairs,
                            const Model& model, const EigenPairs& fine) {
   // The nodes of the coarse mesh come first.
@@ -126,7 +131,7 @@ Eigen::MatrixXd similarity(const AssembledSystem& coarse, const EigenPairs& pair
 
 std::vector<MeshError> mesh_errors(const AssembledSystem& system, const EigenPairs& pairs,
                                    const Progress& progress) {
-  // Rigid-body motions are the same on every mesh.
+  // Rigid-body motions have no error: they are the same on every mesh.
   std::vector<MeshError> errors(static_cast<std::size_t>(pairs.values.size()), {0, 1, 0});
   if (pairs.values.isZero(0)) return errors;
   const FinerMesh finer = finer_mesh(system.model().mesh(), system.model().options().mode_count);

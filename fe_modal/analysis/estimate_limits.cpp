@@ -11,7 +11,8 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// How many nodes of a set are neither on a whole face of the set nor in an element beside one.
+/// Number of nodes of a set that are neither on a whole face of the set nor in an element beside
+/// one.
 std::size_t count_single(const mesher::Mesh& mesh, std::span<const std::int32_t> nodes) {
   enum class Place : char { outside, single, beside_face, on_face };
   std::vector<Place> places(mesh.nodes.size(), Place::outside);
@@ -43,16 +44,16 @@ std::size_t count_single(const mesher::Mesh& mesh, std::span<const std::int32_t>
   return static_cast<std::size_t>(std::count(places.begin(), places.end(), Place::single));
 }
 
-/// Lines of what has single nodes.
+/// Collects a line for each set with single nodes.
 class SingleNodes {
  public:
   explicit SingleNodes(const mesher::Mesh& mesh) : mesh_(mesh) {}
 
-  /// Adds the single nodes of a set that covers no face.
+  /// Adds the single nodes of a node set.
   void add_set(const std::string& name, std::span<const std::int32_t> nodes) {
     add(name, count_single(mesh_, nodes), nodes.size());
   }
-  /// Sites, all of whose nodes count, for finer meshes have no more of them.
+  /// Adds sites that all count as single, since finer meshes have no more of them.
   void add_sites(const std::string& name, const std::set<std::int32_t>& sites) {
     const auto end = sites.lower_bound(static_cast<std::int32_t>(mesh_.nodes.size()));
     const auto count = static_cast<std::size_t>(std::distance(sites.begin(), end));
@@ -108,7 +109,7 @@ std::vector<std::string> loaded_at_single_nodes(const mesher::Mesh& mesh,
     if (at_nodes == nullptr) continue;
     const std::string name = "load '" + load.name + "'";
     if (at_nodes->position_m) {
-      single.add_sites(name, {0});  // any node, but one
+      single.add_sites(name, {0});  // any single node has the same count
     } else {
       single.add_set(name, mesh.node_set(at_nodes->set).nodes);
     }

@@ -33,7 +33,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// Rounding may let a mechanism through the factorisation: its lowest mode tells.
+/// Refuses a mechanism that has passed the factorisation by rounding: its lowest mode shows it.
 void check_no_mechanism(const AssembledSystem& system, const EigenPairs& pairs) {
   const Eigen::Index rigid = system.model().rigid().count();
   if (pairs.values.size() <= rigid) return;
@@ -100,7 +100,7 @@ void warn_of_rigid_cut(Eigen::Index count, Eigen::Index rigid_count, const Progr
        " rigid-body motions of the body, of which any combination is one: ask for at least " + all);
 }
 
-/// The basis asked for, what is known of its completeness, and the ways in which slits part that
+/// The requested basis, the result of the check of its completeness, and the fields of slits that
 /// joined it.
 struct Basis {
   Reduction reduction;
@@ -108,15 +108,15 @@ struct Basis {
   std::vector<SlitField> slit_fields = {};
 };
 
-/// What the steps of an analysis share.
+/// Data that the steps of an analysis share.
 struct Analysis {
   const Model& model;
   const AssembledSystem& system;
   const LinearSolver& inverse;
   const Progress& progress;
   const Progress& warn;
-  std::vector<RigidAverage> averages = {};  ///< of the options' interfaces
-  std::vector<InterfaceLoads> loads = {};   ///< likewise
+  std::vector<RigidAverage> averages = {};  ///< one for each of the options' interfaces
+  std::vector<InterfaceLoads> loads = {};   ///< one for each of the options' interfaces
 
   const ModalOptions& options() const { return model.options(); }
   BodyOperators operators() const { return operators_of(system, inverse); }
@@ -125,7 +125,7 @@ struct Analysis {
   }
 };
 
-/// The body's lowest modes, and what is known of their number.
+/// Lowest modes of the body, with the result of the check of their completeness.
 CheckedModes normal_modes(const Analysis& of) {
   CheckedModes modes = lowest_modes(of.system, of.inverse, of.options().mode_count,
                                     of.system.rigid_modes(), of.options().check, of.warn);
@@ -160,7 +160,7 @@ Basis reduced_basis(const Analysis& of) {
           completeness};
 }
 
-/// How many of the basis, its first, are the body's own eigenvectors, which are its lowest.
+/// Number of the basis vectors, the first ones, that are the body's own eigenvectors, its lowest.
 Eigen::Index eigenvector_count(const Reduction& basis) {
   return std::count_if(basis.kinds.begin(), basis.kinds.end(), [](const std::string& kind) {
     return kind == kNormalMode || kind == kRigidMode;
@@ -178,7 +178,7 @@ std::vector<std::vector<Eigen::Matrix3Xd>> interface_responses(
   return responses;
 }
 
-/// The modal body of a basis, without what takes more solves.
+/// Modal body of a basis, without the results that need more solves.
 ModalBody body_of(const Analysis& of, const Basis& basis, const std::vector<Particle>& particles) {
   const ModalOptions& options = of.options();
   const mesher::Mesh& mesh = of.model.mesh();

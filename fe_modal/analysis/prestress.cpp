@@ -18,11 +18,12 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// A body that buckles only above this factor, if ever, is not said to: the eigenvalues 1 / factor
-/// of a body in tension come as near to zero as the mesh allows, and no iteration tells them apart.
+/// Largest buckling factor that is reported: the eigenvalues 1 / factor of a body in tension come
+/// as near to zero as the mesh allows, and no iteration distinguishes them from zero.
 constexpr double kLargestFactor = 1000;
 
-/// Each rank solves the static problem by itself: all need its displacements.
+/// Options of a serial run: each rank solves the static problem by itself, since all need its
+/// displacements.
 ModalOptions alone(ModalOptions options) {
   options.ranks = {};
   options.element_ranks.clear();

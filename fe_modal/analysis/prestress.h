@@ -14,27 +14,28 @@
 namespace flexneck::fe_modal {
 
 /// Finds the displacements of the static step under the options' prestress loads, so that systems
-/// of the model have the stiffness K + K_g(sigma); without such loads the model stays as it is.
-/// Each rank solves for all of them.
+/// of the model have the stiffness K + K_g(sigma); without such loads the model is not changed.
+/// Each rank solves the whole static problem.
 /// @throws InputError as static_step() does.
 void add_prestress(Model& model, const Progress& progress);
 
-/// A sentence on a static step that is beyond small displacements: a strain above 0.1 or a turn
-/// above 0.3 rad somewhere in the body, which errs by a tenth or a twentieth; empty below.
-/// @param model of add_prestress()
+/// Returns a sentence on a static step beyond small displacements: a strain above 0.1 or a rotation
+/// above 0.3 rad somewhere in the body, with errors of a tenth or a twentieth; empty for smaller
+/// ones.
+/// @param model prestressed by add_prestress()
 std::string large_prestress_text(const Model& model);
 
 /// Smallest positive factor of the model's prestress at which the body buckles, K + factor K_g
 /// singular; nothing if there is none up to 1000.
-/// @param model of add_prestress()
+/// @param model prestressed by add_prestress()
 std::optional<double> buckling_factor(const Model& model);
 
-/// (K + K_g)^-1 of a prestressed system.
+/// Factorises K + K_g of a prestressed system.
 /// @throws InputError with the factor at which it buckles, if that is not above 1.
 /// @throws ComputationError as LinearSolver.
 std::unique_ptr<const LinearSolver> factorise_prestressed(const AssembledSystem& system);
 
-/// The options' prestress loads in words; empty without any.
+/// The options' prestress loads in words; empty if there are none.
 std::string prestress_text(const ModalOptions& options);
 
 }  // namespace flexneck::fe_modal

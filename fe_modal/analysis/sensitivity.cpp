@@ -21,11 +21,11 @@ constexpr std::array<std::string_view, 6> kKindNames = {
 constexpr std::array<const char*, 6> kLoads = {"Fx/ux", "Fy/uy", "Fz/uz",
                                                "Mx/rx", "My/ry", "Mz/rz"};
 
-/// Derivatives by one parameter.
+/// Derivatives with respect to one parameter.
 struct ByParameter {
   Eigen::VectorXd forms;
   double mass = 0;
-  std::vector<Eigen::MatrixXd> averages;  ///< as in the request
+  std::vector<Eigen::MatrixXd> averages;  ///< one for each of the request's averages
 };
 
 ByParameter derivative_by(const DesignParameter& parameter, const mesher::Mesh& mesh,
@@ -50,7 +50,8 @@ ByParameter derivative_by(const DesignParameter& parameter, const mesher::Mesh& 
   for (std::size_t k = 0; k < result.averages.size(); ++k) {
     if (result.averages[k].size() == 0) continue;
     const InterfaceDefinition& interface = options.interfaces[k];
-    if (interface.is_rigid) {  // its motion is a degree of freedom, wherever its nodes are
+    // The motion is a degree of freedom, independent of its nodes' positions.
+    if (interface.is_rigid) {
       result.averages[k].setZero();
       continue;
     }
@@ -112,7 +113,8 @@ void add_stiffness(const ResponseForms& forms, const ModalOptions& options,
   }
 }
 
-/// The average motion of nodes that are coupled rigidly is not that of nodes that stay.
+/// Refuses an interface that shares nodes with a rigid one: the average motion of rigidly coupled
+/// nodes does not follow from fields that stay fixed as nodes move.
 void check_overlap(const mesher::Mesh& mesh, const ModalOptions& options) {
   const auto nodes_of = [&](const InterfaceDefinition& interface) {
     return mesher::nodes_of(mesh.face_set(interface.set)).nodes;
@@ -133,7 +135,7 @@ void check_overlap(const mesher::Mesh& mesh, const ModalOptions& options) {
   }
 }
 
-/// Constraints whose coefficients change with the positions of nodes.
+/// Refuses constraints whose coefficients change with the positions of nodes.
 void check_connections(const mesher::Connections& connections) {
   const auto turns = [](const mesher::Support& support) { return support.axes.is_cylindrical; };
   if (connections.couplings.empty() && connections.equations.empty() &&
@@ -153,7 +155,7 @@ void check_basis(const ModalOptions& options) {
   }
 }
 
-/// Adds what moves with the couplings of rigid interfaces.
+/// Adds the contribution of the couplings of rigid interfaces.
 void add_couplings(const mesher::Mesh& mesh, const ModalOptions& options,
                    const SensitivityRequest& request, BodyGradient& gradient) {
   for (std::size_t k = 0; k < options.interfaces.size(); ++k) {
@@ -165,7 +167,7 @@ void add_couplings(const mesher::Mesh& mesh, const ModalOptions& options,
   }
 }
 
-/// Of the last modes their group may go on beyond them.
+/// Adds a note if the last modes may belong to a group that continues beyond them.
 void note_cut_group(const SensitivityRequest& request, const AnalysisFields& solved,
                     Sensitivities& result) {
   const Spectrum& modes = request.spectra.front().spectrum;

@@ -12,35 +12,38 @@
 
 namespace flexneck::fe_modal {
 
-/// Eigenpairs as forms of fields.
+/// Eigenpairs as energy forms of fields.
 struct SpectrumForms {
   Spectrum spectrum;
   Eigen::Index first_field = 0;
-  const AttachedFrequencies* attached = nullptr;  ///< the body and where it is, if it is one
-  std::size_t interface = 0;                      ///< likewise, of the options
+  /// Attached body and its interface; null if there is none.
+  const AttachedFrequencies* attached = nullptr;
+  std::size_t interface = 0;  ///< index in the options, if a body is attached
   std::vector<ModeGroup> groups;
-  std::vector<Eigen::Index> first_forms;  ///< of each group: its upper triangle, row by row
+  /// Index of each group's first form; forms are its upper triangle, row by row.
+  std::vector<Eigen::Index> first_forms;
 };
 
-/// The responses of an interface to its six loads as forms of fields.
+/// Responses of an interface to its six loads as energy forms of fields.
 struct ResponseForms {
-  std::size_t interface = 0;  ///< of the options
+  std::size_t interface = 0;  ///< index in the options
   Eigen::Index first_field = 0;
   Eigen::Index first_form = 0;
 };
 
-/// All that is to be differentiated.
+/// All quantities to be differentiated, as forms of fields.
 struct SensitivityRequest {
   Displacements fields;
   std::vector<EnergyForm> forms;
   std::vector<SpectrumForms> spectra;
   std::vector<ResponseForms> responses;
-  /// Of the options' interfaces: average motions of all fields, (6, fields); empty if nobody asks.
+  /// For each of the options' interfaces: average motions of all fields, (6, fields); empty if not
+  /// needed.
   std::vector<Eigen::MatrixXd> averages;
 };
 
-/// All eigenpairs, responses and averages of a solution. The fields are those of body and solved,
-/// which must outlive the request.
+/// Requests the derivatives of all eigenpairs, responses and averages of a solution. The fields are
+/// those of body and solved, which must outlive the request.
 SensitivityRequest request_of(const mesher::Mesh& mesh, const ModalOptions& options,
                               const ModalBody& body, const AnalysisFields& solved);
 

@@ -10,7 +10,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// The body with its slits shut, whose nodes are those of the open one.
+/// The body with its slits shut, with the nodes of the open one.
 class ShutBody {
  public:
   explicit ShutBody(const Model& open)
@@ -23,14 +23,14 @@ class ShutBody {
       modes_ = lowest_eigenpairs(system_.mass(), *inverse_, open.options().mode_count);
   }
 
-  /// By the open body's degrees of freedom, as all that follows.
+  /// Modes in the open body's degrees of freedom, like all shapes below.
   Eigen::MatrixXd modes() const {
     if (modes_.values.size() == 0) return {};
     return open_.restrict(system_.fields().expand(modes_.vectors));
   }
   /// Static shapes under loads on the open body.
   Eigen::MatrixXd shapes(const Eigen::MatrixXd& loads) const { return beyond({}, loads); }
-  /// What they have beyond the modes.
+  /// Static shapes less the modes' part.
   Eigen::MatrixXd shapes_beyond_modes(const Eigen::MatrixXd& loads) const {
     return beyond(modes_, loads);
   }
@@ -61,7 +61,7 @@ SlitBasis slit_basis(const Model& model, const BodyOperators& open,
                      const std::vector<InterfaceLoads>& loads, const Progress& progress) {
   const mesher::Mesh& mesh = model.mesh();
   const FieldMap& field_map = model.fields();
-  // Forces on couplings and in fixed directions do not pass from the one body to the other.
+  // Forces on couplings and in fixed directions do not transfer from one body to the other.
   if (field_map.dof_map().is_constrained())
     throw InputError(
         "slits that open and close: expected no rigid interface or coupling, no equation, and no "

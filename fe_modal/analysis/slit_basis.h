@@ -15,15 +15,16 @@ struct SlitBasis {
   std::vector<SlitField> fields;
 };
 
-/// With all slits shut the lowest modes, as many as the options say, and what the static shapes of
-/// the interfaces have beyond them; and for each way in which a slit parts (slit_fields()) the
-/// shape of least energy whose jumps are that way's, the interfaces free. With all amplitudes zero
-/// the body is the one without slits, exactly; with openings that loads pull apart it is the open
-/// one as far as its jumps are sums of the fields.
-/// @param model  of the open body, no slit tied
-/// @param open   of that body
-/// @param loads  of the interfaces
-/// @throws InputError as slit_fields() does, and for rigid interfaces and directions fixed alone
+/// Basis of the body with all slits shut, its lowest modes, as many as the options say, and the
+/// interfaces' static shapes less the modes' part; and for each motion of a slit (slit_fields())
+/// the shape of least energy with the jumps of that motion, the interfaces free. With all
+/// amplitudes zero the body is exactly the one without slits; with openings under loads that pull
+/// the sides apart it is the open one as far as its jumps are sums of the fields.
+/// @param model  that of the open body, no slit tied
+/// @param open   operators of that body
+/// @param loads  those of its interfaces
+/// @throws InputError as slit_fields() does, and for rigid interfaces and sets fixed in some
+/// directions
 SlitBasis slit_basis(const Model& model, const BodyOperators& open,
                      const std::vector<InterfaceLoads>& loads, const Progress& progress);
 

@@ -9,14 +9,15 @@
 
 namespace flexneck::fe_modal {
 
+/// Fails for a body whose stiffness is not definite.
 /// @throws InputError that names the parts that move without strain, and how.
-/// @throws ComputationError where there are none that move as rigid bodies.
+/// @throws ComputationError if there are none that move as rigid bodies.
 [[noreturn]] void refuse_mechanism(const AssembledSystem& system, bool is_fixed);
 
-/// (K - shift M)^-1. A stiffness that is not definite is that of a mechanism, or of elements that
-/// are none.
+/// Factorises K - shift M. If it is not positive definite, the body is a mechanism or its elements
+/// are in error.
 /// @throws InputError naming the parts that move without strain, and how.
-/// @throws ComputationError as LinearSolver where there is no such motion.
+/// @throws ComputationError as LinearSolver if there is no such motion.
 std::unique_ptr<const LinearSolver> factorise_or_refuse(const AssembledSystem& system,
                                                         double shift);
 

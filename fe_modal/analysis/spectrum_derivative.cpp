@@ -21,8 +21,8 @@ std::string joined_names(const Spectrum& spectrum, const ModeGroup& group) {
   return names;
 }
 
-/// Appends a row.
-/// @param by_parameter d lambda
+/// Appends a row of derivatives.
+/// @param by_parameter d lambda for each parameter
 void add_row(QuantityKind kind, const std::string& name, double frequency_Hz, bool is_attached,
              const Eigen::VectorXd& by_parameter, Sensitivities& result) {
   result.quantities.push_back({kind, name, "Hz", frequency_Hz, is_attached});
@@ -31,7 +31,7 @@ void add_row(QuantityKind kind, const std::string& name, double frequency_Hz, bo
   result.derivatives.row(row) = by_parameter.transpose() / (kEightPiSquared * frequency_Hz);
 }
 
-/// The largest product of an entry off the diagonal with its parameter, over the eigenvalue. Of a
+/// Largest product of an entry off the diagonal with its parameter, over the eigenvalue; for a
 /// parameter that is zero, the entry over the largest of the diagonal.
 double coupling(const GroupDerivative& derivative, const std::vector<DesignParameter>& parameters,
                 double lambda) {
@@ -97,7 +97,7 @@ void add_group(const Spectrum& spectrum, const GroupDerivative& derivative, Sens
   const double mean_Hz = std::sqrt(frequencies.squaredNorm() / static_cast<double>(group.count));
   add_row(QuantityKind::mean_frequency, names, mean_Hz, spectrum.is_attached,
           of_class.colwise().mean().transpose(), result);
-  // The lowest derivative belongs to none of the modes, but to a mixture of them.
+  // The lowest derivative belongs to a mixture of the modes, not to one of them.
   for (Eigen::Index k = 0; k < group.count; ++k) {
     add_row(QuantityKind::directional, names + " (" + std::to_string(k + 1) + ")", mean_Hz,
             spectrum.is_attached, directional.row(k).transpose(), result);

@@ -16,6 +16,7 @@ struct ModeGroup {
   Eigen::Index count = 1;
 };
 
+/// Divides a spectrum into groups of nearly equal modes.
 /// @param frequencies_Hz ascending, above zero
 std::vector<ModeGroup> groups_of(const Eigen::VectorXd& frequencies_Hz);
 
@@ -25,15 +26,15 @@ struct GroupDerivative {
   std::vector<Eigen::MatrixXd> by_parameter;
 };
 
-/// Frequencies of one eigenproblem, m of them.
+/// The m frequencies of one eigenproblem.
 struct Spectrum {
   std::vector<std::string> names;
   Eigen::VectorXd frequencies_Hz;  ///< ascending, above zero
   bool is_attached = false;
 };
 
-/// Appends the rows of a group, and what is to be said of it, to what is known.
-/// @param derivative of the modes of the group; they are numbered as in the spectrum
+/// Appends the rows of a group and the notes on it to the result.
+/// @param derivative that of the group's modes; they are numbered as in the spectrum
 void add_group(const Spectrum& spectrum, const GroupDerivative& derivative, Sensitivities& result);
 
 }  // namespace flexneck::fe_modal

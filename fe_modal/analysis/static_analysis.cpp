@@ -25,11 +25,12 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// Of the free nodes' forces, relative to the nodal forces of the elements: rounding makes 1e-12 of
-/// slender bodies.
+/// Largest norm of the free nodes' unbalanced forces, relative to the nodal forces of the elements:
+/// rounding makes 1e-12 in slender bodies.
 constexpr double kBalanced = 1e-6;
 
-/// A mechanism may pass the factorisation by rounding: loads move it without strain then.
+/// Refuses a mechanism that has passed the factorisation by rounding: loads then move it without
+/// strain.
 void refuse_moved_mechanism(const AssembledSystem& system, const Eigen::VectorXd& response) {
   if (response.squaredNorm() > 0 && are_strainless(system, response)[0])
     refuse_mechanism(system, true);
@@ -99,7 +100,7 @@ StaticSolution analyse_static(const mesher::Mesh& mesh, const ModalOptions& opti
         "the static step is not in equilibrium: " + rounded_text(solution.imbalance) +
         " of the forces are left over at free nodes");
   const std::vector<std::array<bool, 3>> reacting = reacting_directions_of(mesh, options);
-  // The weights of masses at points are loads, handed to nodes by connections.
+  // Weights of masses at points are loads, transferred to nodes by connections.
   const Eigen::Matrix3Xd weights_N = weights_on_nodes(mesh, model.connections(), loads);
   solution.reactions_N = unbalanced_N - weights_N;
   for (std::size_t k = 0; k < reacting.size(); ++k) {

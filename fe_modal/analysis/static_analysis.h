@@ -15,25 +15,26 @@ namespace flexneck::fe_modal {
 
 /// Solution of K u = f under some loads, small displacements.
 struct StaticStep {
-  Eigen::Matrix3Xd displacements_m;  ///< (3, n), those of the supports included
+  Eigen::Matrix3Xd displacements_m;  ///< (3, n), including those of the supports
   Eigen::Matrix3Xd applied_N;        ///< (3, n), nodal forces of the loads
-  Eigen::VectorXd point_forces;      ///< of springs and weights at reference points, on free dofs
-  std::string solver;                ///< how it was solved
+  /// Forces of springs and weights at reference points on the free dofs.
+  Eigen::VectorXd point_forces;
+  std::string solver;  ///< method of solution
 };
 
-/// The linear static step alone.
+/// Solves the linear static step alone.
 /// @param loads at least one
-/// @throws InputError for a body that nothing fixes, or that is a mechanism; and as nodal_forces()
+/// @throws InputError for a body without supports, or that is a mechanism; and as nodal_forces()
 /// and support_displacements() do.
 /// @throws ComputationError if the factorisation or the iteration fails.
 StaticStep static_step(const Model& model, const std::vector<Load>& loads,
                        const Progress& progress);
 
-/// The nodal forces of the loads alone, (3, n) in N, for other programs.
+/// Nodal forces of the loads alone, (3, n) in N, for other programs.
 Eigen::Matrix3Xd consistent_forces(const mesher::Mesh& mesh, const ModalOptions& options,
                                    const std::vector<Load>& loads);
 
-/// The static step with the reactions of the supports and all stresses.
+/// Solves the static step, with the reactions of the supports and all stresses.
 /// @throws as static_step() and check_options() do, and ComputationError if the free nodes are not
 /// in equilibrium.
 StaticSolution analyse_static(const mesher::Mesh& mesh, const ModalOptions& options,

@@ -8,13 +8,13 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// Sums down each column, as per cent of the wholes.
+/// Cumulative sums down each column, in per cent of the totals.
 Eigen::MatrixXd cumulative_percent(Eigen::MatrixXd parts, const Eigen::RowVectorXd& wholes) {
   for (Eigen::Index k = 1; k < parts.rows(); ++k) parts.row(k) += parts.row(k - 1);
   return 100 * (parts.array().rowwise() / wholes.array()).matrix();
 }
 
-/// Squares of the interface's motions in each mode over the mode's eigenvalue; nothing of rigid
+/// Squares of the interface's motions in each mode over the mode's eigenvalue; zero for rigid
 /// motions.
 Eigen::MatrixXd modal_compliances(const ModalBody& body, const Interface& interface) {
   Eigen::MatrixXd parts(body.mode_count(), 6);

@@ -20,7 +20,7 @@ using Eigen::MatrixXd;
 
 constexpr double kDependent = 1e-9;
 
-/// Motion of the point `to` of a rigid body whose point `from` has a motion.
+/// Map from the motion of the point `from` of a rigid body to that of its point `to`.
 Matrix6d carried(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   Matrix6d matrix = Matrix6d::Identity();
   matrix.topRightCorner<3, 3>() = -skew(to - from);
@@ -41,7 +41,7 @@ MatrixXd mass_in_body_frame(const InertiaInvariants& invariants) {
   return mass.selfadjointView<Eigen::Upper>();
 }
 
-/// What the modes are at the top and in the slits, openings first.
+/// Motions of the modes at the top and in the slits, openings first.
 MatrixXd motions_of_modes(const ModalBody& body, const Interface& top) {
   const Eigen::Index m = body.mode_count();
   MatrixXd motions(m, m);
@@ -54,7 +54,8 @@ MatrixXd motions_of_modes(const ModalBody& body, const Interface& top) {
   return motions;
 }
 
-/// @param length_m  makes lengths of rotations
+/// Checks that the modes move the top and the slits independently.
+/// @param length_m  scales rotations to lengths
 void check_independent(const ModalBody& body, const Interface& top, MatrixXd motions,
                        double length_m) {
   motions.middleRows<3>(3) *= length_m;
@@ -67,7 +68,8 @@ void check_independent(const ModalBody& body, const Interface& top, MatrixXd mot
                    "static shapes alone");
 }
 
-/// The last coordinates, which no load acts on, as multiples of the others.
+/// Map from the other coordinates to all, with the last `count` ones, on which no load acts,
+/// condensed.
 MatrixXd without_load(const MatrixXd& stiffness, Eigen::Index count) {
   const Eigen::Index kept = stiffness.rows() - count;
   MatrixXd all = MatrixXd::Identity(stiffness.rows(), kept);
@@ -78,7 +80,9 @@ MatrixXd without_load(const MatrixXd& stiffness, Eigen::Index count) {
   return all;
 }
 
-/// @throws InputError unless there is sliding, and of one slit: names are those of slit_fields().
+/// Checks that one slit slides.
+/// @throws InputError unless there is sliding, and in one slit only: names are those of
+/// slit_fields().
 void check_one_sliding_slit(const ModalBody& body) {
   std::set<std::string> slits;
   bool slides = false;
@@ -116,8 +120,8 @@ CondensedSection condense(const ModalBody& body, const std::string& base, const 
   section.base_m = fixed.position_m;
   section.top_m = free.position_m;
 
-  // [frame; modes] from [base; top; slits]: the frame rides on the base, and the modes are what the
-  // top and the slits do beyond it.
+  // Map from [base; top; slits] to [frame; modes]: the frame moves with the base, and the modes
+  // give the motions of the top and the slits relative to it.
   const MatrixXd motions = motions_of_modes(body, free);
   check_independent(body, free, motions, (section.top_m - section.base_m).norm());
   const MatrixXd modes_from = motions.inverse();
@@ -169,7 +173,7 @@ double warp_of_face(const ModalBody& body, const std::string& interface,
 
 namespace {
 
-/// As far as a 6 x 6 mass matrix about a point is that of a rigid body.
+/// Rigid-body part of a 6 x 6 mass matrix about a point.
 LumpedMass rigid_part(const Matrix6d& mass) {
   const Eigen::Matrix3d moment = (mass.bottomLeftCorner<3, 3>() - mass.topRightCorner<3, 3>()) / 2;
   return {mass.topLeftCorner<3, 3>().trace() / 3,
@@ -179,7 +183,7 @@ LumpedMass rigid_part(const Matrix6d& mass) {
           mass.bottomRightCorner<3, 3>()};
 }
 
-/// About a point at -p from its own.
+/// The mass about a point at -p from its own.
 LumpedMass moved(const LumpedMass& mass, const Eigen::Vector3d& p) {
   const Eigen::Matrix3d cross = skew(p) * skew(mass.first_moment_kg_m);
   return {mass.mass_kg, mass.first_moment_kg_m + mass.mass_kg * p,
@@ -199,8 +203,8 @@ std::array<LumpedMass, 2> lumped_masses(const CondensedSection& section) {
       there.transpose() * section.mass.bottomRightCorner<6, 6>() * there + shared;
   LumpedMass base = rigid_part(at_base);
   LumpedMass top = rigid_part(back.transpose() * of_top * back);
-  // The ends weigh differently along and across, which no rigid body does: what that loses of the
-  // whole's moments, each end has half of.
+  // Mass matrices of the ends have different masses along and across the axis, unlike rigid bodies:
+  // each end takes half of the moments of inertia of the whole that this loses.
   const LumpedMass whole = rigid_part(at_base + of_top);
   const Eigen::Vector3d moment =
       whole.first_moment_kg_m - base.first_moment_kg_m - moved(top, to_top).first_moment_kg_m;

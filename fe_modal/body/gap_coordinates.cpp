@@ -21,7 +21,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// What the modes do in slits, openings first, and at interfaces off the fixed nodes.
+/// Motions of the modes in slits, openings first, and at interfaces off the fixed nodes.
 struct Motions {
   MatrixXd slits, interfaces;
   Index openings = 0;
@@ -49,13 +49,13 @@ Motions motions_of(const ModalBody& body) {
   return motions;
 }
 
-/// Combinations of modes of the least energy that part the slits one way each and move no
-/// interface, (m, ways).
+/// Combinations of modes of least energy, each of which makes one motion of a slit and moves no
+/// interface, (m, motions of slits).
 MatrixXd parting(const Motions& motions, const VectorXd& stiffness) {
   constexpr double kLeastReciprocalCondition = 1e-10;
   MatrixXd held(motions.slits.rows() + motions.interfaces.rows(), stiffness.size());
   held << motions.slits, motions.interfaces;
-  // In coordinates sqrt(stiffness) a the energy is the length.
+  // The energy is the squared norm in coordinates sqrt(stiffness) a.
   const VectorXd scale = stiffness.cwiseSqrt().cwiseInverse();
   held = held * scale.asDiagonal();
   const VectorXd sizes = held.rowwise().norm();
@@ -73,7 +73,7 @@ MatrixXd parting(const Motions& motions, const VectorXd& stiffness) {
   return scale.asDiagonal() * (held.transpose() * pivots.solve(right));
 }
 
-/// Combinations of modes that leave all slits as they are.
+/// Combinations of modes that do not move the sides of any slit apart.
 MatrixXd shut(const Motions& motions) {
   const Index m = motions.slits.cols();
   const Eigen::HouseholderQR<MatrixXd> qr(motions.slits.transpose());
@@ -81,7 +81,7 @@ MatrixXd shut(const Motions& motions) {
   return all.rightCols(m - motions.slits.rows());
 }
 
-/// Invariants in other coordinates, a = T b.
+/// Invariants in other coordinates b, a = T b.
 InertiaInvariants transformed(const InertiaInvariants& from, const MatrixXd& T) {
   InertiaInvariants to = from;
   to.S2 = from.S2 * T;
@@ -96,7 +96,7 @@ InertiaInvariants transformed(const InertiaInvariants& from, const MatrixXd& T) 
   };
   const auto pairs = [&](const auto& values) {
     auto by_second = values;
-    by_second.clear();  // j of the old, l of the new coordinates
+    by_second.clear();  // entry (j, l): j in the old, l in the new coordinates
     for (std::size_t j = 0; j < m; ++j)
       for (Index l = 0; l < T.cols(); ++l) by_second.push_back(sum(values, j * m, l));
     auto both = values;
@@ -118,9 +118,9 @@ InertiaInvariants transformed(const InertiaInvariants& from, const MatrixXd& T) 
   return to;
 }
 
-/// Mean of the modes' shares by their kinetic energy in a combination. It leaves out what modes of
-/// different kinds have in common, which is nothing where only modes of one kind are combined, as
-/// of a body that is symmetric about a plane.
+/// Energy fractions of a combination: mean of the modes' fractions, weighted by kinetic energy. It
+/// leaves out cross terms of modes of different kinds, which are zero if only modes of one kind are
+/// combined, as in a body that is symmetric about a plane.
 std::array<double, 4> mixed_shares(const std::vector<ModeRecord>& modes, const VectorXd& weights) {
   const VectorXd energies = weights.cwiseAbs2();
   std::array<double, 4> shares{};
@@ -130,7 +130,8 @@ std::array<double, 4> mixed_shares(const std::vector<ModeRecord>& modes, const V
   return shares;
 }
 
-/// @param statics  how many of the new modes, the last, only complete the static compliance
+/// The body in other coordinates, a = T b.
+/// @param statics  number of the new modes, the last ones, that only complete the static compliance
 ModalBody transformed(const ModalBody& body, const MatrixXd& T, const VectorXd& values,
                       Index statics) {
   ModalBody to;

@@ -11,7 +11,7 @@ constexpr std::string_view kPerMomentUnit = "1/(kg m^2)";
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Square matrices of the modes, (k, m, m).
+/// Writes k square matrices of the modes, (k, m, m).
 void write_squares(Hdf5Writer& file, const std::string& dataset,
                    const std::vector<Eigen::MatrixXd>& squares, std::string_view unit) {
   std::vector<double> values;

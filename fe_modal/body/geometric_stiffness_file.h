@@ -8,9 +8,9 @@
 
 namespace flexneck::fe_modal {
 
-/// The group /geometric_stiffness of a modal body file (README.md).
+/// Writes the group /geometric_stiffness of a modal body file (README.md).
 void write_geometric_stiffness(Hdf5Writer& file, const GeometricStiffness& stiffness);
-/// Nothing if the file has no such group.
+/// Reads the group; nothing if the file has no such group.
 /// @param m number of modes
 /// @throws InputError if a dataset is missing or has another shape.
 std::optional<GeometricStiffness> read_geometric_stiffness(const Hdf5Reader& file, std::size_t m);

@@ -6,8 +6,8 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// Share of the static energy below which a shape is rounding. A basis without it has all but this
-/// share of the compliance.
+/// Fraction of the static energy below which a shape is rounding. A basis without it has all but
+/// this fraction of the compliance.
 constexpr double kNoEnergy = 1e-10;
 
 }  // namespace

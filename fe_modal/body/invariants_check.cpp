@@ -12,12 +12,12 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// int rho p q^T from -int rho ~p ~q.
+/// Returns int rho p q^T from -int rho ~p ~q.
 Eigen::Matrix3d products_of(const Eigen::Matrix3d& inertia_integral) {
   return inertia_integral.trace() / 2 * Eigen::Matrix3d::Identity() - inertia_integral.transpose();
 }
 
-/// int rho p x q from -int rho ~p ~q.
+/// Returns int rho p x q from -int rho ~p ~q.
 Eigen::Vector3d cross_integral(const Eigen::Matrix3d& inertia_integral) {
   const Eigen::Matrix3d& g = inertia_integral;
   return {g(1, 2) - g(2, 1), g(2, 0) - g(0, 2), g(0, 1) - g(1, 0)};
@@ -27,7 +27,7 @@ std::string entry_of(std::size_t j, std::size_t l) {
   return entry_text(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(l));
 }
 
-/// What holds of G and N for a pair of modes.
+/// Checks the identities of G and N for a pair of modes.
 void check_pair(const InertiaInvariants& inertia, std::size_t j, std::size_t l, double rounding) {
   const auto m = static_cast<std::size_t>(inertia.Maa.rows());
   const std::string here = entry_of(j, l);
@@ -46,8 +46,8 @@ void check_pair(const InertiaInvariants& inertia, std::size_t j, std::size_t l, 
                    (n - cross_integral(g)).cwiseAbs().maxCoeff(), 2 * rounding);
 }
 
-/// int rho p q of the scalar fields 1, the components of s0, those of psi_0, …; s0 is scaled so
-/// that int rho |s0|^2 = 1, and 1 so that the mass is.
+/// Matrix of int rho p q of the scalar fields 1, the components of s0, those of psi_0, …; s0 is
+/// scaled so that int rho |s0|^2 = 1, and 1 so that the mass is 1.
 Eigen::MatrixXd gram_matrix(const InertiaInvariants& inertia, double length) {
   const auto m = inertia.Maa.rows();
   const double root_mass = std::sqrt(inertia.mass);
@@ -67,7 +67,8 @@ Eigen::MatrixXd gram_matrix(const InertiaInvariants& inertia, double length) {
   return gram.selfadjointView<Eigen::Lower>();
 }
 
-/// Part after part, so that the message names what is wrong.
+/// Checks that the matrix is positive, block after block, so that the message names the one in
+/// error.
 void check_gram(const Eigen::MatrixXd& gram, double rounding) {
   const Eigen::Index size = gram.rows();
   const double allowed = static_cast<double>(size) * rounding;

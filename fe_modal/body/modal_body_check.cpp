@@ -25,11 +25,12 @@ namespace {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// Iterations solve for static shapes to 1e-8, and for rigid motions as well.
+/// Accuracy of solutions: iterations solve for static shapes and for rigid motions to 1e-8.
 constexpr double kSolved = 1e-6;
-/// Equal frequencies may have come in any order.
+/// Relative difference within which equal frequencies may be in any order.
 constexpr double kEqual = 1e-9;
-/// The fastest sound in any solid, 36 km/s, over twice a distance of atoms, 0.1 nm.
+/// Highest possible frequency: the fastest sound in any solid, 36 km/s, over twice the distance of
+/// atoms, 0.1 nm.
 constexpr double kHighestHz = 2e14;
 
 void check_modes(const ModalBody& body) {
@@ -61,7 +62,7 @@ void check_modes(const ModalBody& body) {
   }
 }
 
-/// The rigid motions nearest to fields on nodes.
+/// Fits rigid motions to fields on nodes.
 class RigidFit {
  public:
   explicit RigidFit(const Eigen::Matrix3Xd& nodes_m)
@@ -76,7 +77,7 @@ class RigidFit {
     factor_.compute(gram);
   }
 
-  /// Turns are unique unless all nodes lie on a line.
+  /// True if rotations are unique: unless all nodes lie on a line.
   bool is_unique() const { return factor_.rank() == 6; }
 
   /// Translation of the nodes' centre, then rotation times a length.
@@ -144,7 +145,7 @@ void check_rigid_modes(const ModalBody& body) {
   for (Eigen::Index k = 0; k < rigid; ++k) check_rigid_mode(body, fit, k);
 }
 
-/// Symmetric and positive, whatever the units of its rows.
+/// Checks that a matrix is symmetric and positive, whatever the units of its rows.
 void check_positive(const std::string& dataset, const std::string& what, const Matrix6d& matrix) {
   const Eigen::VectorXd scales = unit_scales(dataset, matrix);
   const Eigen::MatrixXd scaled = scales.asDiagonal() * matrix * scales.asDiagonal();

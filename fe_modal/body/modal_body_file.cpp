@@ -16,12 +16,12 @@ namespace {
 
 constexpr std::string_view kShapeUnit = "kg^-0.5";
 constexpr std::string_view kRotationUnit = "kg^-0.5 m^-1";
-/// Of the four blocks, row by row.
+/// Units of the four blocks, row by row.
 constexpr std::string_view kComplianceUnit = "m/N, 1/N; 1/N, 1/(N m)";
 constexpr std::string_view kResponseMassUnit = "kg m^2/N^2, kg m/N^2; kg m/N^2, kg/N^2";
 constexpr std::string_view kRigidMassUnit = "kg, kg m; kg m, kg m^2";
 
-/// What becomes of the sides of a slit.
+/// Texts for the two kinds of motion of the sides of a slit.
 constexpr std::string_view kOpens = "not below zero";
 constexpr std::string_view kSlides = "free";
 
@@ -53,7 +53,7 @@ RowMajor read_matrix(const Hdf5Reader& file, const std::string& dataset, std::si
                                     static_cast<Eigen::Index>(columns));
 }
 
-/// A list of equally large matrices, flattened row-major behind leading extents.
+/// Writes a list of equally large matrices, flattened row-major behind leading extents.
 template <class Matrix>
 void write_list(Hdf5Writer& file, const std::string& dataset, const std::vector<Matrix>& list,
                 Shape shape, std::string_view unit) {
@@ -127,7 +127,7 @@ void write_basis(Hdf5Writer& file, const ModalBody& body) {
   if (!body.solver.empty()) file.write("/basis/solver", std::vector<std::string>{body.solver});
 }
 
-/// What readers could work out from the rest, for those who look.
+/// Writes quantities that follow from the other data, for the convenience of readers.
 void write_basis_table(Hdf5Writer& file, const ModalBody& body) {
   const BasisTable table = basis_table(body);
   write_matrix(file, "/basis/effective_mass", table.effective_mass_kg, "kg");

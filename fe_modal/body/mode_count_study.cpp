@@ -41,12 +41,12 @@ std::vector<Choice> choices_of(const ModalBody& body) {
   return choices;
 }
 
-/// Modes at an interface that carries a rigid body.
+/// Modes at an interface to which a rigid body is attached.
 struct LoadedInterface {
   Eigen::MatrixXd motions;      ///< C Phi of all modes, (6, m)
   Eigen::VectorXd eigenvalues;  ///< (m), 1/s^2
   StaticResponse response;
-  Eigen::Matrix<double, 6, 6> mass;  ///< of the rigid body
+  Eigen::Matrix<double, 6, 6> mass;  ///< mass matrix of the rigid body
 };
 
 /// Lowest frequencies of K q = lambda (M + P^T M_rigid P) q.
@@ -67,7 +67,7 @@ ModeCountRow study(const Choice& choice, const LoadedInterface& loaded) {
   row.kept = choice.label;
   row.modes_only_Hz = loaded_frequencies(eigenvalues.asDiagonal(), identity, motions, loaded);
 
-  // Residual shapes X_r: their stiffness and their motion at the interface are both F^T X_r.
+  // Residual shapes X_r have a stiffness and a motion at the interface that are both F^T X_r.
   const Eigen::MatrixXd amplitudes =
       eigenvalues.cwiseInverse().asDiagonal() * motions.transpose();  // (m, 6)
   const Eigen::MatrixXd rest = loaded.response.compliance - motions * amplitudes;

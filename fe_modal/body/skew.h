@@ -12,7 +12,8 @@ inline Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
   return matrix;
 }
 
-/// [I, -skew(r)]: the displacement at r from a point by the point's translation and rotation.
+/// [I, -skew(r)]: map from the translation and rotation of a point to the displacement at r from
+/// it.
 inline Eigen::Matrix<double, 3, 6> rigid_motions_at(const Eigen::Vector3d& r) {
   Eigen::Matrix<double, 3, 6> motions;
   motions << Eigen::Matrix3d::Identity(), -skew(r);

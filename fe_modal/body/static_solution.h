@@ -22,7 +22,7 @@ struct NodalStresses {
 /// Stresses at the integration points of the elements of one part and kind, element by element.
 struct PointStresses {
   std::string part;
-  std::string kind;  ///< of element, such as "hex20"
+  std::string kind;  ///< kind of element, such as "hex20"
   int points_per_element = 0;
   Eigen::Matrix3Xd positions_m;  ///< (3, elements x points)
   Stresses stress_Pa;            ///< (6, elements x points)
@@ -38,14 +38,14 @@ Resultant resultant_of(const Eigen::Matrix3Xd& nodes_m, const Eigen::Matrix3Xd& 
 
 /// Result of a linear static step: small displacements, K u = f.
 struct StaticSolution {
-  std::string boundary;                  ///< what was fixed, e.g. "fixed: bolts"
-  std::string solver;                    ///< how K u = f was solved
-  std::vector<std::string> loads;        ///< each load in words, with its name
-  double imbalance = 0;                  ///< |f - K u| of the free nodes over the loads' norm
-  Eigen::Matrix3Xd nodes_m;              ///< (3, n)
-  Eigen::Matrix3Xd displacements_m;      ///< (3, n)
-  Eigen::Matrix3Xd applied_N;            ///< (3, n), consistent nodal forces of the loads
-  Eigen::Matrix3Xd reactions_N;          ///< (3, n), of supports and connections on nodes
+  std::string boundary;              ///< supports, e.g. "fixed: bolts"
+  std::string solver;                ///< method of solution of K u = f
+  std::vector<std::string> loads;    ///< description of each load, with its name
+  double imbalance = 0;              ///< norm of f - K u on the free nodes over that of the loads
+  Eigen::Matrix3Xd nodes_m;          ///< (3, n)
+  Eigen::Matrix3Xd displacements_m;  ///< (3, n)
+  Eigen::Matrix3Xd applied_N;        ///< (3, n), consistent nodal forces of the loads
+  Eigen::Matrix3Xd reactions_N;      ///< (3, n), of supports and connections on nodes
   std::vector<NodalStresses> at_nodes;   ///< one for each material
   std::vector<PointStresses> at_points;  ///< one for each part and kind of element
 };

@@ -8,10 +8,10 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// Of reactions and loads, relative: far above rounding, far below a mistake.
+/// Largest relative sum of reactions and loads: far above rounding, far below a mistake.
 constexpr double kBalanced = 1e-6;
 
-/// A (rows, n) column-major matrix is (n, rows) row-major.
+/// Writes the columns of a matrix: (rows, n) column-major is (n, rows) row-major.
 template <int rows>
 void write_columns(Hdf5Writer& file, const std::string& dataset,
                    const Eigen::Matrix<double, rows, Eigen::Dynamic>& values,

@@ -28,7 +28,7 @@ inline Eigen::Matrix3d tensor_of(const Stress& stress) {
   return tensor;
 }
 
-/// sqrt(3/2 dev:dev), Pa.
+/// Von Mises stress sqrt(3/2 dev:dev), Pa.
 inline double von_mises_Pa(const Stress& stress) {
   const Eigen::Vector3d normal = stress.head<3>().array() - stress.head<3>().mean();
   return std::sqrt(1.5 * (normal.squaredNorm() + 2 * stress.tail<3>().squaredNorm()));

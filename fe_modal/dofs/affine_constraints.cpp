@@ -10,9 +10,10 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// A sum below this share of its terms has cancelled but for rounding.
+/// Fraction of the largest term below which a sum has cancelled but for rounding.
 constexpr double kCancelled = 1e-13;
-/// An equation whose coefficients are below this share of what it was made of holds already.
+/// Fraction of its original coefficients below which those of an expanded equation are rounding, so
+/// that it holds already.
 constexpr double kHolds = 1e-9;
 
 }  // namespace

@@ -18,8 +18,8 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// The lowest node of those that are tied together, for each node. Where cuts cross, more than two
-/// nodes are one.
+/// Maps each node to the lowest of those tied together. Where cuts cross, more than two nodes are
+/// one.
 class TiedNodes {
  public:
   TiedNodes(std::size_t node_count, std::span<const mesher::Slit> slits) : next_(node_count) {
@@ -31,7 +31,7 @@ class TiedNodes {
     }
   }
 
-  /// Sites behind the nodes are tied to nothing.
+  /// Lowest node tied to a site. Sites behind the nodes are tied to nothing.
   std::int32_t lowest(std::int32_t site) const {
     if (static_cast<std::size_t>(site) >= next_.size()) return site;
     while (next_[static_cast<std::size_t>(site)] != site) {
@@ -57,10 +57,11 @@ class TiedNodes {
     next_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
   }
 
-  std::vector<std::int32_t> next_;  ///< a lower node that it is tied to, or itself
+  std::vector<std::int32_t> next_;  ///< a lower node tied to each, or itself
 };
 
-/// "x of the node at (0, 0, 0.3) m", "the rotation about z of point 'tip'"
+/// Name of a degree of freedom: "x of the node at (0, 0, 0.3) m", "the rotation about z of point
+/// 'tip'".
 std::string name_of(const mesher::Mesh& mesh, const mesher::Connections& connections,
                     std::int32_t dof) {
   const std::string axis(1, "xyz"[dof % 3]);
@@ -75,7 +76,7 @@ std::string name_of(const mesher::Mesh& mesh, const mesher::Connections& connect
 
 using Terms = std::vector<DofTerm>;
 
-/// u = t + theta x arm
+/// Adds the lines of a coupling, u = t + theta x arm.
 void add_coupling(const mesher::Mesh& mesh, const mesher::Connections& connections,
                   const mesher::Coupling& coupling, const TiedNodes& tied,
                   AffineConstraints& constraints) {
@@ -110,8 +111,8 @@ Terms terms_of(const std::vector<mesher::Term>& sum, const TiedNodes& tied) {
   return terms;
 }
 
-/// An equation of several terms. The largest coefficient of the first one is that of the dependent
-/// degree of freedom.
+/// An equation of several terms. The dependent degree of freedom is the one with the largest
+/// coefficient at the first site.
 struct NamedEquation {
   NamedEquation(const mesher::Equation& equation, const TiedNodes& tied)
       : terms(terms_of(equation.terms, tied)), name(equation.name) {
@@ -121,8 +122,8 @@ struct NamedEquation {
     }
   }
 
-  /// Tells whether the dependent degree of freedom moves at most a hundred times as far as others,
-  /// so that differences of these leave digits of it.
+  /// Returns whether the dependent degree of freedom moves at most a hundred times as far as
+  /// others, so that their differences keep significant digits of it.
   bool is_well_scaled(const AffineConstraints& constraints) const {
     constexpr double kLeast = 1e-2;
     return constraints.size_of(std::span(terms).subspan(dependent, 1)) >=
@@ -142,8 +143,8 @@ struct NamedEquation {
   std::size_t dependent = 0;
 };
 
-/// Adds the equations of several terms. Where the dependent degree of freedom has a small
-/// coefficient another one takes its place, after all others have theirs.
+/// Adds the equations of several terms. If the dependent degree of freedom has a small coefficient
+/// another one takes its place, after all other equations are added.
 void add_equations(const mesher::Connections& connections, const TiedNodes& tied,
                    AffineConstraints& constraints) {
   std::vector<NamedEquation> later;

@@ -9,16 +9,16 @@
 
 namespace flexneck::fe_modal {
 
-/// Tied slits and fixed nodes. Of nodes that are tied together the lowest is independent.
+/// Constraints of tied slits and fixed nodes. The lowest of nodes tied together is independent.
 AffineConstraints tie_and_fix(std::size_t node_count, std::span<const std::int32_t> fixed,
                               std::span<const mesher::Slit> slits);
 
-/// Those, and all that holds and joins nodes otherwise, on the sites of the connections: ties,
-/// couplings and equations first, whose dependent degrees of freedom are given, then supports. A
-/// motion of a reference point that nothing feels, such as the rotation about a line of coupled
-/// nodes, is zero.
+/// Constraints of tied slits, fixed nodes and all connections of the nodes, on the sites of the
+/// connections: ties, couplings and equations first, whose dependent degrees of freedom are given,
+/// then supports. A motion of a reference point that no connection resists, such as the rotation
+/// about a line of coupled nodes, is zero.
 /// @throws InputError as AffineConstraints, for nodes on the axis of a support's cylindrical axes,
-/// and for a reference point with a mass that nothing holds in some motion.
+/// and for a reference point with a mass and an unconstrained motion.
 AffineConstraints constraints_of(const mesher::Mesh& mesh, std::span<const std::int32_t> fixed,
                                  const mesher::Connections& connections);
 

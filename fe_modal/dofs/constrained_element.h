@@ -11,16 +11,16 @@
 
 namespace flexneck::fe_modal {
 
-/// An element in the blocks of degrees of freedom that constraints leave it: T^T E T with the
+/// An element in the blocks of degrees of freedom that remain under constraints: T^T E T with the
 /// motions u = T q of its sites.
 class ConstrainedElement {
  public:
-  /// @param sites nodes, and of point elements those of reference points
+  /// @param sites nodes, and for point elements the sites of reference points
   ConstrainedElement(std::span<const std::int32_t> sites, const DofMap& dof_map);
 
-  /// Block of each place, -1 if fixed: (m) places.
+  /// Block number of each of m places, -1 if fixed.
   std::span<const std::int32_t> numbers() const { return numbers_; }
-  /// T^T E T, (3m, 3m) with degree of freedom a m + i, of an element's matrix (3n, 3n).
+  /// T^T E T, (3m, 3m) with degree of freedom a m + i, for an element's matrix E, (3n, 3n).
   Eigen::MatrixXd reduced(Eigen::MatrixXd element) const;
 
  private:
@@ -28,7 +28,7 @@ class ConstrainedElement {
   Eigen::MatrixXd motion_;  ///< T, (3n, 3m); empty if nothing is constrained
 };
 
-/// An element's mass between nodes, (n, n), in all three directions, (3n, 3n).
+/// Expands an element's mass between nodes, (n, n), to all three directions, (3n, 3n).
 Eigen::MatrixXd in_three_directions(const Eigen::MatrixXd& mass);
 
 }  // namespace flexneck::fe_modal

@@ -17,7 +17,7 @@ bool is_fixed(const AffineConstraints& constraints, std::int32_t site) {
   return true;
 }
 
-/// The site that this one moves with in all directions; -1 if there is none.
+/// Site with which this one moves in all directions; -1 if there is none.
 std::int32_t tied_to(const AffineConstraints& constraints, std::int32_t site) {
   std::int32_t other = -1;
   for (std::int32_t a = 0; a < 3; ++a) {
@@ -182,7 +182,7 @@ Eigen::VectorXd DofMap::restrict(const Eigen::Matrix3Xd& field) const {
   return values;
 }
 
-/// Each reference point by itself: of a node that follows several, nothing is made.
+/// Fits each reference point by itself: nodes that follow several points are left out.
 void DofMap::fit_points(const Eigen::Matrix3Xd& field, Eigen::VectorXd& values) const {
   using Six = Eigen::Matrix<double, 6, 1>;
   struct Fit {

@@ -20,10 +20,11 @@ namespace {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// Of the squares of what a unit motion moves: below this share of the largest nothing moves.
+/// Fraction of the largest eigenvalue, of squares of displacements per unit motion, below which a
+/// motion displaces nothing.
 constexpr double kNothing = 1e-10;
 
-/// What feels a point's motion, and what moves with it.
+/// Resistance of the connections to a point's motion, and the mass at the point.
 struct Point {
   double length_m = 0;  ///< longest arm of its nodes
   Matrix6d felt = Matrix6d::Zero();
@@ -107,7 +108,7 @@ void hold_points(const mesher::Mesh& mesh, const mesher::Connections& connection
     const double largest = motions.eigenvalues()[5];
     for (Eigen::Index k = 0; k < 6; ++k) {
       if (largest > 0 && motions.eigenvalues()[k] > kNothing * largest) break;
-      Vector6d motion = motions.eigenvectors().col(k);  // rotations as lengths
+      Vector6d motion = motions.eigenvectors().col(k);  // rotations are scaled to lengths
       motion.tail<3>() /= point.length_m;
       if ((point.mass * motion).norm() > kNothing * point.mass.norm() * motion.norm()) {
         throw InputError(connections.points[p].name +

@@ -6,9 +6,9 @@
 
 namespace flexneck::fe_modal {
 
-/// Motions of reference points that neither couplings, equations, springs nor masses feel become
-/// zero: a point's rotation that nobody uses, or that about the line of its coupled nodes.
-/// @throws InputError for such a motion of a point with a mass: nothing holds it.
+/// Fixes motions of reference points on which neither couplings, equations, springs nor masses act:
+/// the rotation of a point that is not used, or that about the line of its coupled nodes.
+/// @throws InputError for such a motion of a point with a mass, as it is unconstrained.
 void hold_points(const mesher::Mesh& mesh, const mesher::Connections& connections,
                  AffineConstraints& constraints);
 

@@ -11,7 +11,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// Ragged lists in compressed rows.
+/// Lists of different lengths in compressed rows.
 struct Rows {
   std::vector<std::size_t> offsets = {0};
   std::vector<std::int32_t> entries;
@@ -22,7 +22,7 @@ struct Rows {
   std::size_t size() const { return offsets.size() - 1; }
 };
 
-/// Nodes of each element by the numbers that `emit_numbers(node, emit)` emits.
+/// Lists of the numbers that `emit_numbers(node, emit)` emits for the nodes of each element.
 template <typename Numbering>
 Rows nodes_of_elements(const mesher::Mesh& mesh, const Numbering& emit_numbers) {
   Rows result;
@@ -55,7 +55,7 @@ Rows transpose(const Rows& rows, std::size_t column_count) {
   return result;
 }
 
-/// Rows of the graph from the nodes of the elements.
+/// Makes the rows of the graph from the nodes of the elements.
 void connect(const Rows& elements, std::size_t node_count, std::vector<std::int32_t>& offsets,
              std::vector<std::int32_t>& columns) {
   const Rows elements_of_nodes = transpose(elements, node_count);
@@ -99,7 +99,7 @@ NodeGraph::NodeGraph(const mesher::Mesh& mesh, const DofMap& dof_map) {
     }
     elements.offsets.push_back(elements.entries.size());
   }
-  // A reference point's block that nothing feels keeps its diagonal.
+  // The block of a reference point without connections keeps its diagonal.
   for (auto site = static_cast<std::int32_t>(dof_map.node_count()); site < dof_map.site_count();
        ++site) {
     free(site, [&](std::int32_t block) { elements.entries.push_back(block); });

@@ -11,20 +11,20 @@
 
 namespace flexneck::fe_modal {
 
-/// Which nodes share an element, in compressed rows: the sparsity of every nodal matrix.
+/// Graph of nodes that share an element, in compressed rows: the sparsity of every nodal matrix.
 class NodeGraph {
  public:
-  /// Of all nodes of the mesh.
+  /// Graph of all nodes of the mesh.
   explicit NodeGraph(const mesher::Mesh& mesh);
-  /// Of the blocks of degrees of freedom that elements, point masses and springs join.
+  /// Graph of the blocks of degrees of freedom that elements, point masses and springs join.
   NodeGraph(const mesher::Mesh& mesh, const DofMap& dof_map);
 
-  /// As found elsewhere.
+  /// Takes a graph that was found elsewhere.
   NodeGraph(std::vector<std::int32_t> offsets, std::vector<std::int32_t> columns)
       : offsets_(std::move(offsets)), columns_(std::move(columns)) {}
 
   std::int32_t node_count() const { return static_cast<std::int32_t>(offsets_.size()) - 1; }
-  /// Nodes that share an element with this one, itself among them, ascending.
+  /// Nodes that share an element with this one, including itself, ascending.
   std::span<const std::int32_t> neighbours(std::int32_t node) const {
     const auto row = static_cast<std::size_t>(node);
     const auto begin = static_cast<std::size_t>(offsets_[row]);

@@ -6,7 +6,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// k e^T e of the elongation e, a row; terms of the same site add.
+/// Element of a spring, k e^T e with e the row of the elongation; terms of the same site add.
 PointElement element_of(const mesher::Spring& spring) {
   PointElement element;
   const auto n = static_cast<Eigen::Index>(spring.terms.size());
@@ -29,7 +29,8 @@ PointElement element_of(const mesher::PointMass& mass, std::size_t node_count) {
   }
   PointElement element{{mass.site, mass.site + 1}, Eigen::MatrixXd::Zero(6, 6), {}};
   element.mass.resize(6, 6);
-  const Eigen::Matrix<double, 6, 6> matrix = mass_matrix_of(mass);  // three and three
+  // Translation (3) and rotation (3).
+  const Eigen::Matrix<double, 6, 6> matrix = mass_matrix_of(mass);
   for (Eigen::Index i = 0; i < 6; ++i) {
     for (Eigen::Index j = 0; j < 6; ++j) {
       element.mass(i % 3 * 2 + i / 3, j % 3 * 2 + j / 3) = matrix(i, j);

@@ -18,8 +18,8 @@ struct PointElement {
   Eigen::MatrixXd mass;       ///< (3n, 3n), kg
 };
 
-/// All of a mesh's connections. A rigid body at a reference point has the sites of its translation
-/// and rotation.
+/// Elements of all connections of a mesh. A rigid body at a reference point has the sites of its
+/// translation and rotation.
 std::vector<PointElement> point_elements_of(const mesher::Connections& connections,
                                             std::size_t node_count);
 

@@ -16,7 +16,7 @@ namespace {
 using Six = Eigen::Matrix<double, 6, 6>;
 using Motion = Eigen::Matrix<double, 3, 6>;
 
-/// Sum of squares of what constraints leave over of a motion, relative to the motion: below this it
+/// Largest sum of squares of a motion's violations of the constraints, relative to the motion, that
 /// is rounding of positions in text files.
 constexpr double kKept = 1e-12;
 
@@ -57,9 +57,9 @@ class WholeBody {
   double length_m_;
 };
 
-/// The six motions as the blocks of degrees of freedom have them, and what constraints make of
-/// these at a site. Of sites that share a block, any has given it its motion: the others show what
-/// is left over.
+/// The six motions as values of the blocks of degrees of freedom, and the motions of a site that
+/// the constraints make of them. A block has the motion of one of the sites that share it: the
+/// other sites show the violation.
 class ConstrainedMotions {
  public:
   ConstrainedMotions(const WholeBody& body, const DofMap& dof_map)
@@ -72,15 +72,15 @@ class ConstrainedMotions {
     }
   }
 
-  /// Of all blocks, (dofs, 6).
+  /// Values of all blocks, (dofs, 6).
   const Eigen::Matrix<double, Eigen::Dynamic, 6>& values() const { return values_; }
   Motion at(std::int32_t site) const {
     Motion motion;
     for (Eigen::Index k = 0; k < 6; ++k) motion.col(k) = dof_map_.motion_of(site, values_.col(k));
     return motion;
   }
-  /// How far each direction of a site moves with degrees of freedom that all move by the body's
-  /// size: constraints are compared with this, whatever the sizes of their coefficients.
+  /// Displacement of each direction of a site when all degrees of freedom move by the body's size:
+  /// violations of constraints are relative to it, whatever the sizes of their coefficients.
   Eigen::Vector3d sizes_at(std::int32_t site) const {
     if (dof_map_.is_plain(site)) return Eigen::Vector3d::Ones();
     Eigen::Vector3d squares = Eigen::Vector3d::Zero();
@@ -99,7 +99,7 @@ class ConstrainedMotions {
   Eigen::VectorXd sizes_;
 };
 
-/// "x", "x and y", "(0.6, 0.8, 0)", "every direction"
+/// Text of the directions that vectors span: "x", "x and y", "(0.6, 0.8, 0)", "every direction".
 std::string directions(const Eigen::Matrix3Xd& span, const std::string& every) {
   if (span.cols() == 3) return every;
   constexpr double kSame = 1e-6;

@@ -9,21 +9,21 @@
 
 namespace flexneck::fe_modal {
 
-/// Rigid motions of a body as a whole that its constraints and springs leave: six of a free one,
-/// none of a fixed one, three of half of one on a plane of symmetry.
+/// Rigid motions of a body as a whole that its constraints and springs permit: six of a free body,
+/// none of a fixed one, three of the half of a body on a plane of symmetry.
 class RigidMotions {
  public:
-  /// @param connections those of the DofMap
+  /// @param connections as in the DofMap
   RigidMotions(const mesher::Mesh& mesh, const mesher::Connections& connections,
                const DofMap& dof_map);
 
   Eigen::Index count() const { return motions_.cols(); }
   /// The motions as free values, (dofs, count), independent.
-  /// @param dof_map of the same constraints, in any numbering
+  /// @param dof_map map of the same constraints, in any numbering
   Eigen::MatrixXd vectors(const mesher::Mesh& mesh, const mesher::Connections& connections,
                           const DofMap& dof_map) const;
-  /// "slides along x and y, turns about z"; of one that turns about no point that stands still
-  /// while it turns, the slide along the axis comes too; empty if there are none.
+  /// Text "slides along x and y, turns about z"; for a rotation about no stationary point, it
+  /// includes the translation along the axis; empty if there are no motions.
   std::string text() const;
 
  private:

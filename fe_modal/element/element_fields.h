@@ -22,10 +22,10 @@ void gather(std::span<const std::int32_t> nodes, const Displacements& fields,
 
 /// An element of a mesh under displacement fields.
 struct ElementState {
-  std::size_t block = 0;    ///< of the mesh
-  std::size_t element = 0;  ///< of the block
+  std::size_t block = 0;    ///< index of the block in the mesh
+  std::size_t element = 0;  ///< index of the element in the block
   std::span<const std::int32_t> nodes;
-  const Eigen::Matrix3Xd& nodes_m;  ///< their positions
+  const Eigen::Matrix3Xd& nodes_m;  ///< positions of the nodes
   const PointFields& fields;        ///< gradients and stresses of the displacements
   double shear_modulus_Pa = 0;
   ElementKernel& kernel;

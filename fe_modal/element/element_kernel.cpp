@@ -152,7 +152,7 @@ void ElementKernel::find_stiffness(const Eigen::Matrix3Xd& nodes_m,
 
   map(nodes_m, points_);
   find_gradients();
-  // H_ia,jb = int N_i,a N_j,b holds all that the displacements contribute.
+  // Products H_ia,jb = int N_i,a N_j,b contain all contributions of the displacements.
   multiply_by_transpose(1, gradients_, gradients_, 0, products_);
   result.resize(products_.rows(), products_.cols());
   // 2 mu dev:dev + kappa div^2 = 2 mu eps:eps + lambda div^2

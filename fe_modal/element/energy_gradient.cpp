@@ -12,7 +12,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// A field at a point.
+/// State of a field at a point.
 struct FieldAtPoint {
   FieldAtPoint(const PointFields& fields, Eigen::Index field, Eigen::Index q, double mu)
       : dilatation(fields.dilatation(field, q)), projected(fields.projected_dilatation(field, q)) {
@@ -31,7 +31,7 @@ struct FieldAtPoint {
   double projected;
 };
 
-/// Of a material in a scheme, and their derivatives by Poisson's ratio.
+/// Moduli of a material in a scheme, and their derivatives with respect to Poisson's ratio.
 struct ModuliOfForms {
   ModuliOfForms(const ElementScheme& scheme, const mesher::Material& material)
       : value(moduli_of(material)),
@@ -40,10 +40,10 @@ struct ModuliOfForms {
         projected_by_ratio(projected_modulus(scheme, by_ratio)) {}
 
   Moduli value, by_ratio;
-  double projected, projected_by_ratio;  ///< c
+  double projected, projected_by_ratio;  ///< modulus c of the projected dilatation
 };
 
-/// Two fields at a point: per volume.
+/// Energy densities of two fields at a point.
 struct PairAtPoint {
   PairAtPoint(const FieldAtPoint& one, const FieldAtPoint& other)
       : u(one),
@@ -55,7 +55,7 @@ struct PairAtPoint {
   double energy(const Moduli& moduli, double c) const {
     return moduli.mu * shear + (moduli.lambda - c) * whole + c * projected;
   }
-  /// What grad v is multiplied with.
+  /// Factor of grad v in the derivative of the stiffness.
   Eigen::Matrix3d tensor(const ModuliOfForms& moduli) const {
     const double c = moduli.projected;
     const double mixed = u.projected * w.dilatation + w.projected * u.dilatation - projected;
@@ -90,7 +90,7 @@ void EnergyGradient::compute(const Eigen::Matrix3Xd& nodes_m, const mesher::Mate
   add_mass(material, fields, result);
 }
 
-/// Of what is linear, by least squares over the points: exact.
+/// Finds the gradients of linear pressures by least squares over the points, which is exact.
 void EnergyGradient::find_pressure_gradients() {
   const Eigen::VectorXd& volumes = stiffness_points_.volumes_m3;
   const Eigen::Vector3d centre = stiffness_points_.positions_m * volumes / volumes.sum();

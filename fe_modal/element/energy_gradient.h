@@ -9,24 +9,25 @@
 
 namespace flexneck::fe_modal {
 
-/// u^T (K - lambda M) w of two fields whose nodal values are fixed.
+/// Form u^T (K - lambda M) w of two fields whose nodal values are fixed.
 struct EnergyForm {
-  Eigen::Index one = 0;    ///< u, by its place among the fields
-  Eigen::Index other = 0;  ///< w
+  Eigen::Index one = 0;    ///< index of u among the fields
+  Eigen::Index other = 0;  ///< index of w
   double lambda = 0;       ///< 1/s^2
 };
 
 /// Derivatives of f forms and of the mass of one element with n nodes.
 struct ElementGradient {
-  Eigen::MatrixXd by_nodes;  ///< (3f, n): row a f + k, of form k by direction a of each node, J/m
-  /// (f, 3): by Young's modulus, J/Pa, Poisson's ratio, J, and density, J/(kg/m^3).
+  Eigen::MatrixXd by_nodes;  ///< (3f, n): row a f + k has form k by direction a of each node, J/m
+  /// (f, 3): derivatives by Young's modulus, J/Pa, Poisson's ratio, J, and density, J/(kg/m^3).
   Eigen::MatrixX3d by_material;
   Eigen::Matrix3Xd mass_by_nodes;  ///< (3, n), kg/m
-  double volume_m3 = 0;            ///< the mass by the density
+  double volume_m3 = 0;            ///< derivative of the mass by the density
 };
 
-/// How the energies of an element change when its nodes move, in closed form. For each form, with
-/// G = grad u, sigma the stress of u and v the velocity of the nodes, interpolated by the element,
+/// Derivatives of an element's energies with respect to the positions of its nodes, in closed form.
+/// For each form, with G = grad u, sigma the stress of u and v the velocity of the nodes,
+/// interpolated by the element,
 ///
 ///   d/dt u^T K w = int [e div v - (G_u^T sigma_w + G_w^T sigma_u) : grad v
 ///                       + c (b_u (div w - p_w) + b_w (div u - p_u)) . v] dV
@@ -34,14 +35,14 @@ struct ElementGradient {
 ///       + c (p_u div w + p_w div u - p_u p_w)
 ///   d/dt u^T M w = int rho u . w div v dV
 ///
-/// where p is the projected dilatation, c the modulus that it acts with, and b the gradient of a p
-/// that is linear in the positions: p is the maximum of int (2 p div u - p^2) dV over the
-/// pressures, so that its coefficients need no derivative. These are the derivatives of the
-/// element's own sums over its integration points: they are exact for the matrices that
-/// ElementKernel computes, however coarse the mesh. What is independent of v is found once: the
-/// derivative along any motion of the nodes is a product with by_nodes.
+/// where p is the projected dilatation, c the modulus of its energy, and b the gradient of a p that
+/// is linear in the positions: p is the maximum of int (2 p div u - p^2) dV over the pressures, so
+/// that its coefficients need no derivative. These are the derivatives of the element's own sums
+/// over its integration points: they are exact for the matrices that ElementKernel computes,
+/// however coarse the mesh. The factors that do not depend on v are found once: the derivative
+/// along any motion of the nodes is a product with by_nodes.
 ///
-/// Holds its workspace: one a thread.
+/// Each object has its own workspace: use one per thread.
 class EnergyGradient {
  public:
   EnergyGradient(const ElementScheme& scheme, std::vector<EnergyForm> forms);
@@ -63,9 +64,9 @@ class EnergyGradient {
   ElementKernel kernel_;
   PointFields at_points_;
   ElementPoints stiffness_points_, mass_points_;
-  Eigen::Matrix3Xd pressure_gradients_;  ///< (3, k), b of each field, 1/m; empty: none is linear
-  Eigen::MatrixXd tensors_;              ///< workspace: (3f, 3q), what grad v is multiplied with
-  Eigen::MatrixXd vectors_;              ///< workspace: (3f, q), what v is multiplied with
+  Eigen::Matrix3Xd pressure_gradients_;  ///< (3, k), b of each field, 1/m; empty if none is linear
+  Eigen::MatrixXd tensors_;              ///< workspace: (3f, 3q), factors of grad v
+  Eigen::MatrixXd vectors_;              ///< workspace: (3f, q), factors of v
 };
 
 }  // namespace flexneck::fe_modal

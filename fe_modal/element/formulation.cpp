@@ -27,15 +27,16 @@ constexpr std::array<NamedFormulation, 3> kFormulations = {{
 
 // Full integration has the strength at which a constant strain is exact in curved elements too.
 //
-// Of the pressures that an element could have, those it does best with on a bonded rubber pad
-// (tests/benchmarks/fe_locking_benchmark): fewer make the 20-node hexahedron and the prisms as much
-// too soft as displacements alone make them too stiff, more make the 15-node prism lock.
+// The pressures of an element are those, among the possible ones, with the best results on a bonded
+// rubber pad (tests/benchmarks/fe_locking_benchmark): fewer make the 20-node hexahedron and the
+// prisms as much too soft as displacements alone make them too stiff, more make the 15-node prism
+// lock.
 //
-// Where pressures are linear the bulk part is projected: on the 26k-DOF neck, set A, of 27-node
-// hexahedra the first bending frequency is 0.03 % from the converged one instead of 0.4 %. Constant
-// pressures know no bending: with the bulk part a slender beam of steel, two elements of tet10
-// thick, is 5 % too soft, with the other part 0.02 % too stiff; a bonded pad loses 0.3 %. The
-// 8-node hexahedron with constant pressure and bulk part is the well-known B-bar element.
+// Linear pressures project the bulk part: on the 26k-DOF neck, set A, of 27-node hexahedra the
+// first bending frequency is 0.03 % from the converged one instead of 0.4 %. Constant pressures do
+// not represent bending: with the bulk part a slender beam of steel, two elements of tet10 thick,
+// is 5 % too soft, with the Lame part 0.02 % too stiff; a bonded pad loses 0.3 %. The 8-node
+// hexahedron with constant pressure and bulk part is the well-known B-bar element.
 constexpr std::array<ElementScheme, 22> kSchemes = {{
     {ElementKind::hex8, Formulation::mixed_pressure, 2, PressureSpace::constant,
      VolumetricPart::bulk},  // B-bar
@@ -56,7 +57,8 @@ constexpr std::array<ElementScheme, 22> kSchemes = {{
     {ElementKind::prism18, Formulation::mixed_pressure, 3, PressureSpace::linear,
      VolumetricPart::bulk},
     {ElementKind::prism18, Formulation::displacement, 3, PressureSpace::none, VolumetricPart::bulk},
-    // A pressure of its own changes nothing where the divergence is constant: no mixed one.
+    // A constant pressure changes nothing if the divergence is constant: tet4 has no mixed
+    // formulation.
     {ElementKind::tet4, Formulation::displacement, 1, PressureSpace::none, VolumetricPart::bulk},
     {ElementKind::tet10, Formulation::mixed_pressure, 3, PressureSpace::constant,
      VolumetricPart::lame},
@@ -75,8 +77,9 @@ constexpr std::array<ElementScheme, 22> kSchemes = {{
      VolumetricPart::bulk},
 }};
 
-/// Longest over shortest edge up to which one layer of tetrahedra or pyramids was shown to have an
-/// error in bending that a finer mesh tells (mesh_error_benchmark: 10 does, 50 does not).
+/// Largest ratio of longest to shortest edge at which a finer mesh was shown to reveal the error in
+/// bending of one layer of tetrahedra or pyramids (mesh_error_benchmark: at 10 it does, at 50 it
+/// does not).
 constexpr double kSlender = 10;
 
 bool locks_if_slender(ElementKind kind) {

@@ -8,18 +8,19 @@ namespace flexneck::fe_modal {
 
 /// Moduli of an isotropic material, or their derivatives by one of its constants.
 struct Moduli {
-  double mu;      ///< of shear, Pa
-  double kappa;   ///< of bulk, Pa
-  double lambda;  ///< Lame's first, Pa
+  double mu;      ///< shear modulus, Pa
+  double kappa;   ///< bulk modulus, Pa
+  double lambda;  ///< Lame's first parameter, Pa
 };
 
 Moduli moduli_of(const mesher::Material& material);
 
-/// d/dnu of the moduli at a fixed Young's modulus, Pa. By that modulus they are linear.
+/// Derivatives d/dnu of the moduli at a fixed Young's modulus, Pa. The moduli are linear in the
+/// latter.
 Moduli moduli_by_poissons_ratio(const mesher::Material& material);
 
-/// What the scheme's projection of the dilatation acts with: zero without one, kappa or lambda. It
-/// is linear in the moduli, so that of derivatives it is the derivative.
+/// Modulus of the projected dilatation in a scheme: zero without a projection, kappa or lambda. It
+/// is linear in the moduli, so that for their derivatives it is its own derivative.
 double projected_modulus(const ElementScheme& scheme, const Moduli& moduli);
 
 }  // namespace flexneck::fe_modal

@@ -17,7 +17,7 @@ Eigen::Matrix3Xd reference_positions(mesher::ElementKind kind) {
                                             static_cast<Eigen::Index>(nodes.size()));
 }
 
-/// Sums of stresses at the nodes of one material, and how many elements gave one.
+/// Sums of stresses at the nodes of one material, and the number of elements in each sum.
 struct NodalSums {
   Stresses sums_Pa;        ///< (6, n)
   Eigen::VectorXd counts;  ///< (n)
@@ -45,7 +45,8 @@ Eigen::MatrixXd extrapolation_to_nodes(const ElementScheme& scheme) {
   };
   const Eigen::MatrixXd at_points =
       values_at(mesher::gauss_rule(scheme.kind, scheme.strength).points);
-  // Of fewer points than corners the smallest coefficients, which of constants are all the same.
+  // The pseudoinverse has the smallest coefficients if there are fewer points than corners; those
+  // of constants are then all equal.
   const Eigen::MatrixXd coefficients =
       Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(at_points).pseudoInverse();
   return values_at(reference_positions(scheme.kind)) * coefficients;

@@ -11,10 +11,10 @@
 
 namespace flexneck::fe_modal {
 
-/// From values at the q points of an element's stiffness to its n nodes, (n, q): the function of
-/// the element's corners (linear, on a hexahedron trilinear) that is nearest to the values in the
-/// least-squares sense, at the nodes. Constants pass exactly, and where there are as many points as
-/// corners so do linear functions of an undistorted element.
+/// Map from values at the q points of an element's stiffness to its n nodes, (n, q): the function
+/// of the element's corners (linear, on a hexahedron trilinear) that fits the values best in the
+/// least-squares sense, at the nodes. It reproduces constants exactly, and with as many points as
+/// corners also linear functions of an undistorted element.
 Eigen::MatrixXd extrapolation_to_nodes(const ElementScheme& scheme);
 
 /// Stresses of a displacement field at all integration points and at the nodes of each material.
@@ -22,7 +22,7 @@ struct StressFields {
   std::vector<NodalStresses> at_nodes;
   std::vector<PointStresses> at_points;
 };
-/// @param displacements_m of all nodes, (3, n)
+/// @param displacements_m displacements of all nodes, (3, n)
 StressFields stress_fields(const mesher::Mesh& mesh, const FormulationChoice& formulation,
                            const Eigen::Matrix3Xd& displacements_m);
 

@@ -27,7 +27,7 @@ void find_pressures(PressureSpace space, const Eigen::VectorXd& roots,
     pressures.col(1) = roots.cwiseProduct(reference.row(2).transpose());
   }
   if (space == PressureSpace::linear) {
-    // Centred and scaled for a well-conditioned Gram matrix; the span is the same.
+    // Positions are centred and scaled for a well-conditioned Gram matrix; the span is the same.
     positions.rowwise() -= positions.colwise().mean().eval();
     const double size = positions.cwiseAbs().maxCoeff();
     pressures.rightCols<3>() = (roots / size).asDiagonal() * positions;

@@ -7,13 +7,14 @@
 
 namespace flexneck::fe_modal {
 
-/// How many pressures an element has.
+/// Number of pressures of an element.
 Eigen::Index pressure_count(PressureSpace space);
 
-/// Pressures at the q points of an element's stiffness, (q, p), times the roots of the volumes that
-/// the points stand for, orthonormal: sums of products over the points are integrals.
+/// Basis of the pressures at the q points of an element's stiffness, (q, p), times the square roots
+/// of the points' volumes, orthonormal: sums of products over the points are integrals.
 /// @param reference (3, q) reference coordinates of the points
-/// @param positions (q, 3) of the points; of linear pressures alone, is overwritten
+/// @param positions (q, 3) positions of the points; used for linear pressures alone, and
+/// overwritten
 /// @param pressures must have its size
 void find_pressures(PressureSpace space, const Eigen::VectorXd& roots,
                     const Eigen::Matrix3Xd& reference, Eigen::MatrixX3d& positions,

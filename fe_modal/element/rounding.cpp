@@ -12,7 +12,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// int sigma : grad u, twice the strain energy, J.
+/// Work of the stresses int sigma : grad u, twice the strain energy, J.
 double stress_work(const PointFields& fields, double shear_modulus_Pa) {
   double work = 0;
   for (Eigen::Index q = 0; q < fields.volumes_m3.size(); ++q) {
@@ -32,7 +32,7 @@ double stress_work(const PointFields& fields, double shear_modulus_Pa) {
 }
 
 /// Twice the energy of springs between nodes and to ground, J; nothing if some are at reference
-/// points, whose motions the mode of a body does not have.
+/// points, whose motions a ModalBody does not have.
 std::optional<double> spring_work(const mesher::Mesh& mesh, const Eigen::Matrix3Xd& mode) {
   double work = 0;
   for (const mesher::Spring& spring : mesh.connections.springs) {
@@ -68,7 +68,7 @@ double rounding_error(const mesher::Mesh& mesh, const FormulationChoice& formula
 }
 
 std::string cause_of_rounding(const mesher::Mesh& mesh) {
-  // K has the bulk modulus beside the shear modulus: ten times it at a ratio of 0.45.
+  // Entries of K contain the bulk modulus, which at a ratio of 0.45 is ten times the shear modulus.
   constexpr double kNearlyIncompressible = 0.45;
   constexpr int kDigits = 15;
   const auto nearest = std::max_element(mesh.materials.begin(), mesh.materials.end(),

@@ -17,8 +17,8 @@ namespace {
 constexpr std::size_t kMaxNodes = 4000;
 constexpr std::size_t kMaxModes = 4;
 
-/// The lowest modes that are eigenvectors and no rigid motions.
-/// @throws InputError for a prestressed body, whose loads the ATB would apply again.
+/// Indices of the lowest modes that are eigenvectors and no rigid motions.
+/// @throws InputError for a prestressed body, since the ATB would apply its loads again.
 std::vector<std::size_t> modes_to_write(const ModalBody& body) {
   if (!body.prestress.empty())
     throw InputError(
@@ -38,12 +38,12 @@ std::string record(std::span<const double> numbers) {
   return line + "\n";
 }
 
-/// A mode at the corners in the units of the file, mass-normalised there: (6, n).
+/// A mode at the corners in the units of the file, mass-normalised in these: (6, n).
 Eigen::MatrixXd shape_at(const mesher::Mesh& mesh, const CornerMasses& corners,
                          const Eigen::VectorXd& masses, const Eigen::Matrix3Xd& shape,
                          double inches_per_metre) {
   Eigen::MatrixXd result(6, masses.size());
-  // Of a motion in metres the program's would be in inches, and the angle the same.
+  // A unit displacement in the program is one inch instead of one metre, with the same rotation.
   result.topRows<3>() = inches_per_metre * shape(Eigen::all, corners.nodes);
   result.bottomRows<3>() = corner_rotations(mesh, corners.nodes, shape);
   const double modal_mass = result.topRows<3>().colwise().squaredNorm() * masses;

@@ -15,18 +15,18 @@ namespace flexneck::fe_modal {
 ///   x y z of each node, a record each;
 ///   the nodes' masses;
 ///   the modes' frequencies in Hz;
-///   a record for each mode: of each node three translations, then three rotations in rad.
-/// What follows is not read; the notes there say what is what.
+///   a record for each mode: three translations for each node, then three rotations in rad.
+/// The program does not read further; notes there describe the contents.
 ///
-/// The manual of this version is not published. The order of the records, that nodal masses are
-/// masses and not weights, and the meaning of the six numbers are inferred from how the program
-/// reads and uses them. Its numbers carry no units: inch, lbf and second are inferred from the
-/// usual decks (card A.3), so masses are in lbf s^2/in.
+/// The manual of this version is not published. The order of the records, the fact that nodal
+/// masses are masses and not weights, and the meaning of the six numbers are inferred from how the
+/// program reads and uses them. Its numbers carry no units: inch, lbf and second are inferred from
+/// the usual decks (card A.3), so masses are in lbf s^2/in.
 ///
 /// The nodes are the corners of the elements, which bear all mass (corner_fields.h), and the modes
-/// the lowest ones of the kind "normal", for the program takes 4000 nodes and four modes. It scales
-/// translations, not rotations, so that sum m |phi|^2 = 1: here that holds already, and rotations
-/// are scaled alike.
+/// the lowest ones of the kind "normal", because the program takes 4000 nodes and four modes. It
+/// scales translations, not rotations, so that sum m |phi|^2 = 1: the file's modes satisfy this
+/// already, with rotations on the same scale.
 /// @pre body has the nodes of the mesh
 /// @throws InputError for more than 4000 corners, a body without normal modes, or a file that
 /// cannot be written.

@@ -16,7 +16,7 @@ namespace {
 
 using mesher::ElementKind;
 
-/// dx_a / dxi_b at point q of a table.
+/// Jacobian dx_a / dxi_b at point q of a table.
 Eigen::Matrix3d jacobian(const mesher::ShapeTable& table, Eigen::Index q,
                          const Eigen::Matrix3Xd& positions) {
   Eigen::Matrix3d result;
@@ -45,7 +45,7 @@ class CornerVolumes {
             mesher::tabulate(mesher::linear_kind_of(mesher::shape_of(kind)), rule_.points).values) {
   }
 
-  /// (c), m^3
+  /// Integrals for the positions of an element's nodes, (c), m^3.
   Eigen::VectorXd of(const Eigen::Matrix3Xd& positions) const {
     Eigen::VectorXd result = Eigen::VectorXd::Zero(functions_.rows());
     for (Eigen::Index q = 0; q < rule_.weights.size(); ++q) {
@@ -60,7 +60,7 @@ class CornerVolumes {
   Eigen::MatrixXd functions_;  ///< (c, q)
 };
 
-/// Half the curl of a displacement with this gradient, du_a / dx_b.
+/// Half the curl of a displacement with the gradient g, du_a / dx_b.
 Eigen::Vector3d half_curl(const Eigen::Matrix3d& g) {
   return 0.5 * Eigen::Vector3d(g(2, 1) - g(1, 2), g(0, 2) - g(2, 0), g(1, 0) - g(0, 1));
 }

@@ -10,19 +10,19 @@
 
 namespace flexneck::fe_modal {
 
-/// What a model of point masses with rotations keeps of a mesh: the corners of its elements.
+/// Corners of a mesh's elements with lumped masses, for a model of point masses with rotations.
 struct CornerMasses {
   std::vector<std::int32_t> nodes;  ///< (n), ascending
-  Eigen::VectorXd masses_kg;        ///< (n), int rho N of the shape functions of the corners alone
+  Eigen::VectorXd masses_kg;  ///< (n), int rho N over the shape functions of the corners alone
 };
 
-/// All masses are positive; mass and, where elements have straight edges, centre of mass are those
-/// of the mesh.
+/// Lumps the mass at the corners. All masses are positive; mass and, if elements have straight
+/// edges, centre of mass are those of the mesh.
 CornerMasses lump_at_corners(const mesher::Mesh& mesh);
 
-/// Rotation of each corner under a displacement of all nodes, half its curl, (3, n): the mean of
-/// the elements that meet there, weighted with modulus times volume, so that where plate and rubber
-/// meet it is that of the plate. Exact for rigid motions.
+/// Rotation of each corner under a displacement of all nodes, half its curl, (3, n): the mean over
+/// the elements at the corner, weighted with modulus times volume, so that between plate and rubber
+/// it is that of the plate. Exact for rigid motions.
 /// @param corners ascending
 /// @param displacements (3, nodes of the mesh)
 Eigen::Matrix3Xd corner_rotations(const mesher::Mesh& mesh,

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kReading = "reading the system matrices";
 
-/// Calls visit(row, column, value) for the entries of a matrix of this process, row by row.
+/// Calls visit(row, column, value) for the entries of a matrix on one process, row by row.
 template <typename Visit>
 void each_entry(Mat matrix, const Visit& visit) {
   const auto size = static_cast<PetscInt>(size_of(matrix));
@@ -59,7 +59,7 @@ ImportedBody export_matrices(const mesher::Mesh& mesh, const DofMap& dof_map,
                     {}};
   body.nodes_m.resize(3, dof_map.free_count());
   const auto positions = mesher::positions_of(mesh);
-  // From the last one on, so that the first of tied nodes stands.
+  // The loop runs backwards, so that the position of the first of tied nodes remains.
   for (auto node = static_cast<std::int32_t>(dof_map.node_count()); node-- > 0;) {
     if (dof_map.index(node) < 0) continue;
     body.nodes_m.col(dof_map.index(node)) = positions.col(node);

@@ -7,10 +7,10 @@
 
 namespace flexneck::fe_modal {
 
-/// K and M of a mesh for other programs, without what is fixed; of nodes that are tied the first
-/// one stands for all.
+/// Assembles K and M of a mesh for other programs, without fixed nodes; the first of nodes that are
+/// tied represents all.
 /// @pre the DofMap is not constrained; springs and masses are at nodes
-/// @throws what assemble() throws.
+/// @throws as assemble().
 ImportedBody export_matrices(const mesher::Mesh& mesh, const DofMap& dof_map,
                              const FormulationChoice& formulation);
 

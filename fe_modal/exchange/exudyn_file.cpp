@@ -16,7 +16,7 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-/// Corners of a tetrahedron about the interface: their mean is its point.
+/// Corners of a tetrahedron about the interface: its position is their mean.
 const std::array<Vector3d, 4> kCorners = {Vector3d(1, 1, 1), Vector3d(1, -1, -1),
                                           Vector3d(-1, 1, -1), Vector3d(-1, -1, 1)};
 
@@ -31,7 +31,7 @@ void write_vector(Hdf5Dictionary& file, const std::string& key, const Eigen::Vec
   file.array(key, {values.data(), size}, {size});
 }
 
-/// Positions of all nodes, one below the other, and their shapes, a column each.
+/// Positions of all nodes, one below the other, and their shapes, a column for each mode.
 struct Nodes {
   Eigen::VectorXd positions;
   MatrixXd shapes;
@@ -46,7 +46,7 @@ Nodes nodes_of(const ModalBody& body) {
   nodes.positions.head(3 * n) = body.nodes_m.reshaped();
   for (Index k = 0; k < m; ++k)
     nodes.shapes.col(k).head(3 * n) = body.shapes[static_cast<std::size_t>(k)].reshaped();
-  // About as far apart as the nodes of a mesh; any distance would do.
+  // The corners are about as far apart as the nodes of a mesh; any distance would do.
   const double size = std::sqrt((body.nodes_m.colwise() - body.nodes_m.rowwise().mean().eval())
                                     .colwise()
                                     .squaredNorm()
@@ -64,7 +64,8 @@ Nodes nodes_of(const ModalBody& body) {
   return nodes;
 }
 
-/// With ~psi_j the skew matrices of mode j side by side: sum over the mass of these with others.
+/// Writes the inertia integrals: products of the modes and of their skew matrices ~psi_j, side by
+/// side, with one another and with the positions, integrated over the mass.
 void write_inertia(Hdf5Dictionary& file, const InertiaInvariants& inertia) {
   const Index m = inertia.Maa.rows();
   MatrixXd psi_psi(3 * m, m), psi_skew(3 * m, 3 * m), translation_skew(3, 3 * m),
@@ -95,7 +96,8 @@ void write_inertia(Hdf5Dictionary& file, const InertiaInvariants& inertia) {
 }  // namespace
 
 void write_exudyn(const std::filesystem::path& path, const ModalBody& body) {
-  // Of the nodes with Euler parameters that ObjectFFRFreducedOrderInterface makes by default.
+  // Coordinates of the nodes with Euler parameters that ObjectFFRFreducedOrderInterface makes by
+  // default.
   constexpr std::int32_t kRotations = 4, kDimension = 3;
   const Nodes nodes = nodes_of(body);
   const Eigen::VectorXd omega = 2 * std::numbers::pi * body.frequencies_Hz;

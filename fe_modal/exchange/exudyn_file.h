@@ -7,10 +7,11 @@
 
 namespace flexneck::fe_modal {
 
-/// A body as Exudyn's ObjectFFRFreducedOrderInterface loads it from HDF5, with the exact inertia
-/// invariants, SI units. Its nodes have translations only, so that each interface, at the end of
-/// the list in the body's order, is four nodes without mass that move rigidly with it to the first
-/// order: a marker on all four with equal weights is the interface. README.md tells what is lost.
+/// Writes a body as Exudyn's ObjectFFRFreducedOrderInterface loads it from HDF5, with the exact
+/// inertia invariants, SI units. Its nodes have translations only, so that each interface is
+/// represented, at the end of the list in the body's order, by four nodes without mass that move
+/// rigidly with it to the first order: a marker on all four with equal weights is the interface.
+/// README.md describes the losses.
 /// @throws InputError if the file cannot be written.
 void write_exudyn(const std::filesystem::path& path, const ModalBody& body);
 

@@ -7,8 +7,8 @@
 
 namespace flexneck::fe_modal {
 
-/// A number as Fortran may have written it: with a plus in front, or a D before its exponent.
-/// @return whether the text is a finite one, and nothing else
+/// Reads a number in Fortran's notation as well: with a plus in front, or a D before its exponent.
+/// @return true if the text is a finite number, and nothing else
 inline bool read_number(std::string text, double& value) {
   for (char& c : text)
     if (c == 'D' || c == 'd') c = 'e';

@@ -21,7 +21,7 @@ namespace {
 constexpr const char* kWrapping = "taking over a matrix";
 constexpr double kSameInEachDirection = 1e-12;
 
-/// PETSc reads the arrays in place.
+/// Wraps the arrays of a matrix, which PETSc reads in place.
 MatHandle wrap(const UpperMatrix& upper) {
   MatHandle matrix;
   const auto size = static_cast<PetscInt>(upper.rows());
@@ -34,7 +34,7 @@ MatHandle wrap(const UpperMatrix& upper) {
   return matrix;
 }
 
-/// The mass between nodes, in one direction.
+/// Mass between nodes, in one direction, from that of all degrees of freedom.
 NodalMass nodal_mass_of(const UpperMatrix& mass) {
   std::vector<Eigen::Triplet<double, std::int32_t>> entries;
   for (Eigen::Index row = 0; row < mass.rows(); row += 3) {

@@ -9,23 +9,25 @@
 
 namespace flexneck::fe_modal {
 
-/// A body from another program: matrices of n free nodes in place of a mesh. Degree of freedom
-/// 3 k + a is direction a of node k; what is fixed has been left out.
+/// A body from another program: matrices of n free nodes in place of a mesh. Degree of freedom 3 k
+/// + a is direction a of node k; fixed degrees of freedom are left out.
 struct ImportedBody {
   UpperMatrix stiffness;  ///< (3n, 3n), N/m
   UpperMatrix mass;       ///< (3n, 3n), kg
   Eigen::Matrix3Xd nodes_m;
 };
 
-/// The mass of all degrees of freedom from that between nodes.
+/// Expands the mass between nodes to all degrees of freedom.
 UpperMatrix expand_mass(const NodalMass& nodal);
 
-/// @throws InputError unless the sizes agree and the mass is the same in each direction, as that of
-/// solid elements is: then the inertia invariants follow from it.
+/// Checks an imported body.
+/// @throws InputError unless the sizes agree and the mass is the same in each direction, as for
+/// solid elements: then the inertia invariants follow from it.
 void check(const ImportedBody& body);
 
-/// Normal modes of a body that is fixed, with its invariants; it has no interfaces.
-/// @param options their number, the check, the solver and options of PETSc: all else is of meshes
+/// Computes normal modes of a fixed body, with its invariants; it has no interfaces.
+/// @param options number of modes, check, solver and options of PETSc; all other options are for
+/// meshes
 /// @param warn takes a line if the number of modes cuts a cluster of equal frequencies; may be
 /// empty
 /// @throws InputError as check(), or for more modes than degrees of freedom.

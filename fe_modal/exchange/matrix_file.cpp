@@ -22,7 +22,8 @@ bool is_binary(const std::filesystem::path& path) {
                    ": expected the ending .mtx (Matrix Market) or .petsc (PETSc binary)");
 }
 
-/// Entries (row, column) and (column, row) of a general matrix are one.
+/// Upper half of a symmetric matrix; entries (row, column) and (column, row) of a general matrix
+/// must agree and become one.
 UpperMatrix upper_half(const std::filesystem::path& path, const MatrixEntries& matrix) {
   const auto refuse = [&](const std::string& problem) {
     throw InputError(path.string() + ": " + problem);

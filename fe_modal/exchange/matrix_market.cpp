@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\v\f";
 
-/// Numbers of a file line by line, comments left out.
+/// Reads the numbers of a file line by line, without comments.
 class NumberLines {
  public:
   explicit NumberLines(const std::filesystem::path& path)
@@ -39,7 +39,7 @@ class NumberLines {
     return header_.find(" " + word) != std::string::npos;
   }
 
-  /// The numbers of the next line that has any, `count` of them.
+  /// The numbers of the next line that has any; there must be `count` of them.
   std::vector<double> next(std::size_t count) {
     do {
       next_line();
@@ -50,7 +50,8 @@ class NumberLines {
     for (;;) {
       while (place != end && kBlanks.find(*place) != std::string_view::npos) ++place;
       if (place == end) break;
-      if (*place == '+' && place + 1 != end) ++place;  // Fortran's; from_chars has none
+      // Fortran's plus sign, which from_chars does not accept.
+      if (*place == '+' && place + 1 != end) ++place;
       double number = 0;
       const auto [after, error] = std::from_chars(place, end, number);
       if (error != std::errc()) refuse("expected a number");
@@ -73,12 +74,12 @@ class NumberLines {
     return static_cast<std::int32_t>(number);
   }
 
-  /// A number of rows, columns or entries, no larger than the file has characters.
+  /// A number of rows, columns or entries, no larger than the number of characters in the file.
   std::int32_t count(double number, double least) const {
     constexpr double kMost = std::numeric_limits<std::int32_t>::max();
     return integer(number, least, std::min(kMost, size_));
   }
-  /// Bytes.
+  /// Size of the file in bytes.
   double size() const { return size_; }
 
   [[noreturn]] void refuse(const std::string& problem) const {

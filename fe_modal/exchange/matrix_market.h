@@ -12,21 +12,21 @@ namespace flexneck::fe_modal {
 
 using MatrixEntry = Eigen::Triplet<double, std::int32_t>;
 
-/// A sparse matrix as it stands in a file.
+/// A sparse matrix as listed in a file.
 struct MatrixEntries {
   std::int32_t rows = 0;
   std::int32_t columns = 0;
   bool is_symmetric_by_half = false;  ///< only the lower half is listed
-  std::vector<MatrixEntry> entries;   ///< from 0
+  std::vector<MatrixEntry> entries;   ///< indices from 0
 };
 
-/// Matrix Market exchange format (Boisvert, Pozo and Remington, NISTIR 5935, 1996).
+/// Writes the Matrix Market exchange format (Boisvert, Pozo and Remington, NISTIR 5935, 1996).
 /// @param upper half of a symmetric matrix by rows
 void write_matrix_market(const std::filesystem::path& path,
                          const Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>& upper);
 MatrixEntries read_matrix_market(const std::filesystem::path& path);
 
-/// Dense, "array real general".
+/// Writes a dense matrix, "array real general".
 void write_matrix_market_array(const std::filesystem::path& path, const Eigen::MatrixXd& table);
 Eigen::MatrixXd read_matrix_market_array(const std::filesystem::path& path);
 

@@ -7,15 +7,17 @@
 
 namespace flexneck::fe_modal {
 
-/// A body for the modal joint of MBDyn: its interfaces as nodes 1, 2, … with translations and
-/// rotations, mass and stiffness of the modes, and the exact inertia invariants (groups 12 and 14
-/// to 18). Names of interfaces and modes stand in comments. SI units. README.md tells what is lost.
+/// Writes a body for the modal joint of MBDyn: its interfaces as nodes 1, 2, … with translations
+/// and rotations, mass and stiffness of the modes, and the exact inertia invariants (groups 12 and
+/// 14 to 18). Names of interfaces and modes stand in comments. SI units. README.md describes the
+/// losses.
 /// @throws InputError if the file cannot be written.
 void write_mbdyn_fem(const std::filesystem::path& path, const ModalBody& body);
 
-/// Such a file, of ours or of another program. Without the invariants of groups 12 and 14 to 18
-/// they are those of the lumped masses in group 11, if these have no rotary inertia of their own.
-/// @throws InputError with the line for what is not read, missing or contradicts the rest.
+/// Reads such a file, of this or of another program. Without groups 12 and 14 to 18 the invariants
+/// are those of the lumped masses in group 11, if these have no rotary inertia of their own.
+/// @throws InputError with the line for data that is not supported, missing or in contradiction to
+/// the rest.
 ImportedModes read_mbdyn_fem(const std::filesystem::path& path);
 
 }  // namespace flexneck::fe_modal

@@ -27,7 +27,7 @@ struct Word {
   std::size_t line;
 };
 
-/// A file as its groups of words; comments within a group are apart.
+/// A file as its groups of words, without comments within a group.
 class Groups {
  public:
   explicit Groups(const std::filesystem::path& path) : path_(path) {
@@ -40,7 +40,7 @@ class Groups {
       begin = end + 1;
     }
     if (words_.empty()) refuse(1, "expected '** RECORD GROUP 1', found none");
-    // A last number that is cut short is a number, too.
+    // A truncated last number would still be read as a number.
     if (goes_on) refuse(number, "expected '** END OF FILE', found none: the file ends too early");
   }
 
@@ -51,7 +51,7 @@ class Groups {
       refuse(number_of_lines_, "there is no RECORD GROUP " + std::to_string(group));
     return found->second;
   }
-  /// The numbers of a group, rows x columns of them.
+  /// The numbers of a group as a matrix, rows x columns.
   MatrixXd matrix(int group, double rows, double columns) const {
     const std::vector<Word>& all = words(group);
     if (rows * columns != static_cast<double>(all.size()))
@@ -70,7 +70,7 @@ class Groups {
       refuse(word.line, "expected a number, found '" + word.text + "'");
     return value;
   }
-  /// A count, no larger than there are words in the file.
+  /// A count, no larger than the number of words in the file.
   std::size_t count(const Word& word, std::size_t least) const {
     const double value = number(word);
     if (!(value >= static_cast<double>(least) && value <= static_cast<double>(count_)) ||
@@ -78,7 +78,8 @@ class Groups {
       refuse(word.line, "expected a count, found '" + word.text + "'");
     return static_cast<std::size_t>(value);
   }
-  /// What stands behind "** INTERFACE <label>", and behind the colon of each mode's line.
+  /// Names of interfaces, behind "** INTERFACE <label>", and texts of modes, behind the colon of
+  /// each mode's line.
   const std::map<std::string, std::string>& interfaces() const { return interfaces_; }
   const std::vector<std::string>& mode_texts() const { return modes_; }
 
@@ -87,6 +88,7 @@ class Groups {
   }
 
  private:
+  /// Takes a line.
   /// @return false at the end
   bool take(std::string_view line, std::size_t number) {
     number_of_lines_ = number;
@@ -179,7 +181,7 @@ std::vector<Interface> nodes_of(const Groups& file, const Extents& extents) {
   return nodes;
 }
 
-/// Of matrices that stand side by side in a group.
+/// List of the matrices that stand side by side in a group.
 template <class Matrix>
 std::vector<Matrix> list_of(const MatrixXd& all, double factor) {
   std::vector<Matrix> list;
@@ -207,7 +209,7 @@ InertiaInvariants exact_invariants(const Groups& file, const Extents& extents) {
   return inertia;
 }
 
-/// Sums over the nodes, equations.md section 2.
+/// Inertia invariants as sums over the nodes, equations.md section 2.
 InertiaInvariants lumped_invariants(const Groups& file, const Extents& extents,
                                     const std::vector<Interface>& nodes) {
   const MatrixXd lumps = file.matrix(11, static_cast<double>(extents.nodes), 6);

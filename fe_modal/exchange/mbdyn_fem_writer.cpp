@@ -10,7 +10,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Rows of numbers.
+/// Text of a matrix in rows of numbers.
 std::string text_of(const MatrixXd& matrix) {
   std::string text;
   for (Index row = 0; row < matrix.rows(); ++row) {
@@ -25,7 +25,7 @@ std::string group(int number, const std::string& title) {
   return "** RECORD GROUP " + std::to_string(number) + ", " + title + "\n";
 }
 
-/// Matrices side by side, as the reader takes them: row by row over all of them.
+/// Matrices side by side, in the order of the reader: row by row over all of them.
 template <class Matrix>
 MatrixXd side_by_side(const std::vector<Matrix>& list, double factor) {
   MatrixXd all(3, static_cast<Index>(list.size()) * Matrix::ColsAtCompileTime);
@@ -80,7 +80,7 @@ void write_inertia(OutputFile& file, const InertiaInvariants& inertia) {
   file.write(group(15, "INVARIANT 4") + text_of(inertia.N0) + "**\n");
   file.write(group(16, "INVARIANT 8") + text_of(side_by_side(inertia.G0, 1)) + "**\n");
   file.write(group(17, "INVARIANT 5") + text_of(side_by_side(inertia.N, 1)) + "**\n");
-  // int rho ~psi_j ~psi_k.
+  // Invariant 9 is int rho ~psi_j ~psi_k.
   file.write(group(18, "INVARIANT 9") + text_of(side_by_side(inertia.G, -1)) + "**\n");
 }
 

@@ -12,8 +12,8 @@ namespace {
 
 constexpr FileFormat kViewFormat{"flexneck modes view", 2, "flexneck modes"};
 
-/// A dataset for each mode: of the three readers of XDMF that ParaView has, two find nothing in a
-/// part of a larger dataset.
+/// Writes a dataset for each mode: two of the three XDMF readers of ParaView do not find parts of a
+/// larger dataset.
 std::vector<mesher::XdmfItem> write_shapes(const std::filesystem::path& path,
                                            const ModalBody& body) {
   Hdf5Writer file(path, kViewFormat);

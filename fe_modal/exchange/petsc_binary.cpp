@@ -59,7 +59,7 @@ class BinaryInput {
              ", found " + std::to_string(found));
     }
   }
-  /// A number of things that the file has room for.
+  /// A count of items, for which the file must have room.
   std::int32_t count(std::int64_t bytes_each) {
     const auto found = number<std::int32_t>();
     if (found < 0 || found * bytes_each > size_) refuse("the file ends too early");

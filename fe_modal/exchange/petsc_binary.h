@@ -7,9 +7,9 @@
 
 namespace flexneck::fe_modal {
 
-/// PETSc's binary format with 32-bit integers and doubles, big-endian: of a matrix its class,
-/// rows, columns, entries, the entries of each row, all columns, all values; of a vector its class,
-/// size and values (PETSc manual, MatLoad and VecLoad).
+/// PETSc's binary format with 32-bit integers and doubles, big-endian: for a matrix its class,
+/// rows, columns, entries, the entries of each row, all columns, all values; for a vector its
+/// class, size and values (PETSc manual, MatLoad and VecLoad).
 /// @param upper half of a symmetric matrix by rows; both halves are written
 void write_petsc_matrix(const std::filesystem::path& path,
                         const Eigen::SparseMatrix<double, Eigen::RowMajor, std::int32_t>& upper);

@@ -21,9 +21,9 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kAgree = 1e-6;      ///< numbers of a file that say the same
-constexpr double kRounding = 1e-12;  ///< of a matrix that is diagonal
-constexpr double kNothing = 1e-10;   ///< of the largest eigenvalue: no stiffness
+constexpr double kAgree = 1e-6;      ///< largest relative difference of redundant numbers of a file
+constexpr double kRounding = 1e-12;  ///< largest relative rounding in a diagonal matrix
+constexpr double kNothing = 1e-10;   ///< fraction of the largest eigenvalue that is no stiffness
 constexpr std::array kKinds = {kNormalMode, kRigidMode, kResidualMode,
                                kReliefMode, kRitzMode,  kConstraintMode};
 
@@ -36,7 +36,7 @@ struct Spectrum {
   bool is_as_given = false;
 };
 
-/// Whether the modes are mass-orthonormal, uncoupled and in order as they are.
+/// Returns whether the modes are already mass-orthonormal, uncoupled and in ascending order.
 bool are_eigenvectors(const ReducedBody& reduced) {
   const MatrixXd& mass = reduced.invariants.Maa;
   const Eigen::VectorXd squares = reduced.stiffness.diagonal();
@@ -58,7 +58,7 @@ Spectrum spectrum_of(const ReducedBody& reduced) {
   return {std::move(values), std::move(vectors)};
 }
 
-/// sum_kl T_kj T_li list[k, l].
+/// Transformed pairs sum_kl T_kj T_li list[k, l].
 template <class Term>
 std::vector<Term> transformed_pairs(const std::vector<Term>& list, const MatrixXd& T) {
   const Index m = T.rows();
@@ -87,8 +87,8 @@ InertiaInvariants transformed(const InertiaInvariants& given, const MatrixXd& T)
   return result;
 }
 
-/// The identities among the invariants (invariants_check.h) hold to the digits of a file; made to
-/// hold to rounding.
+/// Makes the identities among the invariants (invariants_check.h), which hold to the digits of a
+/// file, hold to rounding.
 void make_consistent(InertiaInvariants& inertia) {
   const auto cross_of = [](const Eigen::Matrix3d& g) {
     return Eigen::Vector3d(g(1, 2) - g(2, 1), g(2, 0) - g(0, 2), g(0, 1) - g(1, 0));
@@ -111,7 +111,7 @@ void make_consistent(InertiaInvariants& inertia) {
 
 double largest(const Eigen::Matrix3d& matrix) { return matrix.cwiseAbs().maxCoeff(); }
 
-/// A file says twice what G0 and G say: by N0 and N, and by the generalised mass.
+/// Checks data of a file that repeats parts of G0 and G: N0 and N, and the generalised mass.
 void check_agreement(const InertiaInvariants& inertia) {
   const Index m = inertia.Maa.rows();
   for (Index l = 0; l < m; ++l) {

@@ -26,12 +26,13 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
 }
 
-/// Line by line.
+/// Reads a file line by line.
 class Lines {
  public:
   Lines(std::filesystem::path path, std::string_view text) : path_(std::move(path)), rest_(text) {}
 
-  /// The next one that is not empty, split at its first '='; the value is empty without.
+  /// Goes to the next line that is not empty, split at its first '='; the value is empty if there
+  /// is none.
   void next() {
     do {
       if (rest_.empty()) refuse("the file ends too early");
@@ -60,7 +61,7 @@ class Lines {
       refuse("expected a number, found '" + std::string(value_) + "'");
     return value;
   }
-  /// A whole number, as value of a key.
+  /// Whole number that is the value of a key.
   Index whole(std::string_view name, Index least, Index most) {
     expect(name);
     Index value = 0;
@@ -89,7 +90,7 @@ struct Series {
   std::size_t line = 0;
 };
 
-/// The indices of "m1( 2, 1,12)".
+/// Indices in a key such as "m1( 2, 1,12)".
 std::vector<Index> indices_of(const Lines& file) {
   std::string_view key = file.key();
   std::vector<Index> indices;
@@ -109,7 +110,7 @@ std::vector<Index> indices_of(const Lines& file) {
   return indices;
 }
 
-/// Structures of a matrix.
+/// Codes of matrix structures in the file.
 constexpr Index kSymmetric = 2, kUnit = 4;
 
 void read_entry(const Lines& file, Index structure, Series& series) {
@@ -131,7 +132,7 @@ struct Block {
   Index rows, columns, order;  ///< the last at most
 };
 
-/// The lines of a block behind its name, to its end.
+/// Reads the lines of a block behind its name, to its end.
 Series read_series(Lines& file, const std::string& name, const Block& block, Index modes) {
   Series series;
   series.line = file.number();
@@ -176,7 +177,7 @@ Interface read_node(Lines& file, const std::map<std::string, std::string>& names
   return node;
 }
 
-/// What the file is made of, by the names of its blocks.
+/// Contents of the file, by the names of its blocks.
 struct Contents {
   double mass = 0;
   Index modes = 0;
@@ -185,7 +186,7 @@ struct Contents {
   std::map<std::string, Series> blocks;
 };
 
-/// "…; 1 = base; 2 = top" of the first line.
+/// Names of the nodes in the first line, "…; 1 = base; 2 = top".
 std::map<std::string, std::string> names_in(std::string_view text) {
   std::map<std::string, std::string> names;
   for (std::size_t place = text.find(';'); place != std::string_view::npos;) {
@@ -256,14 +257,14 @@ Contents read_contents(Lines& file) {
   return contents;
 }
 
-/// From xx, yy, zz, xy, xz, yz.
+/// Symmetric tensor from xx, yy, zz, xy, xz, yz.
 Eigen::Matrix3d tensor_of(const MatrixXd& six) {
   Eigen::Matrix3d J;
   J << six(0), six(3), six(4), six(3), six(1), six(5), six(4), six(5), six(2);
   return J;
 }
 
-/// From the factors of wx^2, wy^2, wz^2, wx wy, wy wz, wx wz.
+/// Symmetric tensor from the factors of wx^2, wy^2, wz^2, wx wy, wy wz, wx wz.
 Eigen::Matrix3d tensor_of_products(const Eigen::RowVectorXd& six) {
   Eigen::Matrix3d G;
   G << six[0], six[3] / 2, six[5] / 2, six[3] / 2, six[1], six[4] / 2, six[5] / 2, six[4] / 2,
@@ -304,8 +305,8 @@ InertiaInvariants invariants_of(const Lines& file, const Contents& contents) {
   return inertia;
 }
 
-/// By how much Ge is off: three columns a mode, as readers take it, or by PY_SID, which wrote the
-/// samples of EMBS_ModelicaLib, a column a mode for each axis.
+/// Error of Ge in the better of two orders of its columns: three columns a mode, as readers take
+/// it, or, as in the samples of EMBS_ModelicaLib by PY_SID, a column a mode for each axis.
 double difference_of_Ge(const MatrixXd& Ge, const InertiaInvariants& inertia) {
   const Index m = Ge.rows();
   double by_modes = 0, by_axes = 0;
@@ -319,7 +320,7 @@ double difference_of_Ge(const MatrixXd& Ge, const InertiaInvariants& inertia) {
   return std::min(by_modes, by_axes);
 }
 
-/// What stands in more than one block, beyond what import_modes() checks.
+/// Checks data that is redundant among blocks, beyond the checks of import_modes().
 void check_blocks(const Contents& contents, const InertiaInvariants& inertia) {
   const auto& at = contents.blocks;
   const Index m = contents.modes;

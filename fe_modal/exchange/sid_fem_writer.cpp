@@ -21,7 +21,7 @@ struct Series {
   Structure structure = full;
 };
 
-/// Seventeen digits, with the D of Fortran.
+/// Text of a number with seventeen digits and the D of Fortran.
 std::string text_of(double number) {
   std::string text = fmt::format("{:24.16E}", number);
   text[text.find('E')] = 'D';
@@ -60,7 +60,7 @@ class Writer {
 
  private:
   void number(const std::string& name, Index value) { key(26, name, fmt::format("{:4}", value)); }
-  /// What is exactly zero is left out, as by others.
+  /// Writes an entry; exact zeros are left out, as by other programs.
   void entry(const std::string& name, double value) {
     if (value != 0) key(26, name, text_of(value));
   }
@@ -69,14 +69,14 @@ class Writer {
   Index modes_;
 };
 
-/// Elements of a symmetric matrix: xx, yy, zz, xy, xz, yz.
+/// Components of a symmetric matrix: xx, yy, zz, xy, xz, yz.
 Eigen::VectorXd six_of(const Eigen::Matrix3d& J) {
   Eigen::VectorXd six(6);
   six << J(0, 0), J(1, 1), J(2, 2), J(0, 1), J(0, 2), J(1, 2);
   return six;
 }
 
-/// w^T G w = sum of these times wx^2, wy^2, wz^2, wx wy, wy wz, wx wz.
+/// Factors of wx^2, wy^2, wz^2, wx wy, wy wz, wx wz in the sum w^T G w.
 Eigen::RowVectorXd products_of(const Eigen::Matrix3d& G) {
   Eigen::RowVectorXd six(6);
   six << G(0, 0), G(1, 1), G(2, 2), G(0, 1) + G(1, 0), G(1, 2) + G(2, 1), G(0, 2) + G(2, 0);

@@ -16,7 +16,7 @@ struct StressItems {
   mesher::XdmfItem tensor, von_mises;
 };
 
-/// By the mesh's materials.
+/// Writes the stresses, by the mesh's materials.
 std::vector<StressItems> write_stresses(const std::filesystem::path& path, const mesher::Mesh& mesh,
                                         const StaticSolution& solution) {
   Hdf5Writer file(path, kStressViewFormat);

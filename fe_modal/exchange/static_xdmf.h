@@ -13,8 +13,8 @@ namespace flexneck::fe_modal {
 /// Stresses of one material at all nodes of a mesh, for programs that colour grids by them.
 struct SpreadStresses {
   std::string material;
-  std::vector<double> tensor_Pa;  ///< (n, 9), row-major; not a number at nodes of other materials
-  std::vector<double> von_mises_Pa;  ///< (n), likewise
+  std::vector<double> tensor_Pa;     ///< (n, 9), row-major; NaN at nodes of other materials
+  std::vector<double> von_mises_Pa;  ///< (n), NaN at the same nodes
 };
 std::vector<SpreadStresses> spread_stresses(const StaticSolution& solution);
 
@@ -22,7 +22,7 @@ std::vector<SpreadStresses> spread_stresses(const StaticSolution& solution);
 /// displacements, its reactions and the stresses of its material. Positions, displacements and
 /// reactions are read from the solution's file, stresses from "stress_view.h5" beside it, the
 /// elements from "mesh_view.h5", which mesher::write_xdmf() writes.
-/// @param file already written from `solution`, in the folder of mesh_file
+/// @param file the file already written from `solution`, in the folder of mesh_file
 /// @pre solution has the nodes of the mesh
 /// @throws InputError if the folder cannot be written.
 void write_static_xdmf(const std::filesystem::path& file, const std::filesystem::path& mesh_file,

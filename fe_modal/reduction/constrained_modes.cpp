@@ -10,7 +10,7 @@ struct ConstrainedMass::Terms {
   Ranks ranks;
   Eigen::MatrixXd constraints;           ///< C^T, (dofs, n)
   Eigen::MatrixXd responses;             ///< X, (dofs, n)
-  Eigen::LLT<Eigen::MatrixXd> products;  ///< of C X
+  Eigen::LLT<Eigen::MatrixXd> products;  ///< factor of C X
 
   Eigen::MatrixXd project(const Eigen::MatrixXd& fields) const {
     return fields - responses * products.solve(inner_products(ranks, constraints, fields));

@@ -9,20 +9,20 @@
 
 namespace flexneck::fe_modal {
 
-/// P^T M P as an operator, with P the K-orthogonal projector to the fields on which C x = 0:
-/// P = I - X (C X)^-1 C with K X = C^T. The eigenpairs of K x = lambda P^T M P x with finite lambda
-/// are the modes of the body whose interfaces' average motions C x are fixed: K^-1 P^T = P K^-1
+/// Operator P^T M P, with P the K-orthogonal projector to the fields on which C x = 0: P = I - X (C
+/// X)^-1 C with K X = C^T. The eigenpairs of K x = lambda P^T M P x with finite lambda are the
+/// modes of the body whose interfaces' average motions C x are fixed: K^-1 P^T = P K^-1 is
 /// symmetric, so that x = lambda P K^-1 M P x has C x = 0.
 class ConstrainedMass {
  public:
-  /// @param mass of the free degrees of freedom; must outlive this
+  /// @param mass mass matrix of the free degrees of freedom; must outlive this
   /// @param constraints C^T, (dofs, n), independent
   /// @param responses X, (dofs, n)
   ConstrainedMass(const Ranks& ranks, Mat mass, const Eigen::MatrixXd& constraints,
                   const Eigen::MatrixXd& responses);
 
   Mat matrix() const { return operator_.get(); }
-  /// P x of each column.
+  /// Projection P x of each column.
   Eigen::MatrixXd project(const Eigen::MatrixXd& columns) const;
 
  private:

@@ -14,7 +14,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// Of a symmetric tensor: xx, yy, zz, xy, xz, yz.
+/// Indices of a symmetric tensor's components: xx, yy, zz, xy, xz, yz.
 constexpr std::array<std::array<std::size_t, 2>, 6> kPairs = {
     {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
 
@@ -25,7 +25,7 @@ class StressIntegral {
   StressIntegral(Eigen::Index modes, Eigen::Index stresses)
       : modes_(modes), sums_(Eigen::MatrixXd::Zero(modes * (modes + 1) / 2, stresses)) {}
 
-  /// @param fields of the modes, then of the displacements that make the stresses
+  /// @param fields fields of the modes, then the displacements that cause the stresses
   void add(const PointFields& fields, double shear_modulus_Pa) {
     const Eigen::Index points = fields.volumes_m3.size();
     products_.resize(sums_.rows(), 6 * points);
@@ -51,7 +51,8 @@ class StressIntegral {
   }
 
  private:
-  /// Symmetric parts of sum_a psi_i,a,k psi_j,a,l, twice them off the diagonal, times the volume.
+  /// Finds the symmetric parts of sum_a psi_i,a,k psi_j,a,l, twice them off the diagonal, times the
+  /// volume.
   void multiply_gradients(const PointFields& fields, Eigen::Index q) {
     for (std::size_t c = 0; c < kPairs.size(); ++c) {
       const auto [k, l] = kPairs[c];
@@ -88,8 +89,8 @@ class StressIntegral {
   Eigen::MatrixXd stresses_;  ///< workspace: (stresses, 6 points)
 };
 
-/// Accelerations of the undeformed body: three of the frame, three angular ones, six products of
-/// angular velocities.
+/// Accelerations of the undeformed body: three for translations of the frame, three for rotations,
+/// six for products of angular velocities.
 std::vector<Eigen::Matrix3Xd> unit_accelerations(const Eigen::Matrix3Xd& positions) {
   std::vector<Eigen::Matrix3Xd> fields;
   const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
@@ -104,7 +105,8 @@ std::vector<Eigen::Matrix3Xd> unit_accelerations(const Eigen::Matrix3Xd& positio
   return fields;
 }
 
-/// Less the inertia forces of a particle in the same accelerations, on all degrees of freedom.
+/// Adds the inertia forces (negative mass times acceleration) of a particle in the same
+/// accelerations, on all degrees of freedom.
 void add_inertia_forces(const Particle& particle, const DofMap& dof_map, Eigen::MatrixXd& loads) {
   std::vector<Eigen::Matrix3Xd> accelerations = unit_accelerations(particle.position_m);
   for (const auto& motion : particle.motions.colwise()) accelerations.emplace_back(motion);

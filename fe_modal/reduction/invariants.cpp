@@ -4,15 +4,15 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// c(a, b) = int rho p_a q_b of two vector fields.
+/// Integrals c(a, b) = int rho p_a q_b of two vector fields.
 using Products = Eigen::Matrix3d;
 
-/// int rho ~p q = int rho p x q
+/// Cross integral int rho ~p q = int rho p x q.
 Eigen::Vector3d cross_integral(const Products& c) {
   return {c(1, 2) - c(2, 1), c(2, 0) - c(0, 2), c(0, 1) - c(1, 0)};
 }
 
-/// -int rho ~p ~q = int rho (p.q I - q p^T)
+/// Inertia integral -int rho ~p ~q = int rho (p.q I - q p^T).
 Eigen::Matrix3d inertia_integral(const Products& c) {
   return c.trace() * Eigen::Matrix3d::Identity() - c.transpose();
 }
@@ -35,7 +35,7 @@ InertiaInvariants inertia_invariants(const MassIntegrals& mass_integrals,
                                      const std::vector<Particle>& particles) {
   const auto n = static_cast<Eigen::Index>(nodes_m.size());
   const auto m = static_cast<Eigen::Index>(shapes.size());
-  // Columns: 1, then the components of s0, then those of psi_0 … psi_(m-1).
+  // Columns are 1, the components of s0, and those of psi_0 … psi_(m-1).
   Eigen::MatrixXd fields(n, 4 + 3 * m);
   fields.col(0).setOnes();
   for (Eigen::Index k = 0; k < n; ++k) {
@@ -52,7 +52,7 @@ InertiaInvariants inertia_invariants(const MassIntegrals& mass_integrals,
     integrals += particle.mass_kg * values * values.transpose();
   }
   const auto products = [&](Eigen::Index first, Eigen::Index second) -> Products {
-    return integrals.block<3, 3>(1 + 3 * first, 1 + 3 * second);  // 0: s0, l + 1: psi_l
+    return integrals.block<3, 3>(1 + 3 * first, 1 + 3 * second);  // index 0: s0, l + 1: psi_l
   };
 
   InertiaInvariants result;

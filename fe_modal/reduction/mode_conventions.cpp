@@ -8,12 +8,12 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// Relative difference of frequencies below which modes share their space.
+/// Relative difference of frequencies below which modes span one eigenspace.
 constexpr double kSameFrequency = 1e-6;
 
 using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-/// Translations and length x rotations at the observed region, one column a mode.
+/// Translations and length x rotations at the observed region, a column for each mode.
 Motions observe(const EigenPairs& pairs, const FieldMap& field_map, const RigidAverage& seen,
                 double length_m) {
   Motions motions(6, pairs.values.size());
@@ -28,7 +28,7 @@ Motions observe(const EigenPairs& pairs, const FieldMap& field_map, const RigidA
 /// End of the group of equal frequencies that starts at `first`.
 Eigen::Index end_of_group(const Eigen::VectorXd& values, Eigen::Index first) {
   Eigen::Index end = first + 1;
-  // Values are squares of frequencies: twice the relative difference.
+  // Values are squares of frequencies: their relative difference is twice as large.
   while (end < values.size() && values[end] - values[end - 1] < 2 * kSameFrequency * values[end]) {
     ++end;
   }
@@ -37,7 +37,8 @@ Eigen::Index end_of_group(const Eigen::VectorXd& values, Eigen::Index first) {
 
 /// Orthogonal matrix whose first column has the most fore-aft and least lateral motion.
 Eigen::MatrixXd rotation_to_axes(const Motions& motions) {
-  // x and y translation, x and y rotation: lateral motion counts for, fore-aft against.
+  // Weights of x and y translation, x and y rotation: the minimum is fore-aft, the maximum lateral
+  // motion.
   const Vector6d weights{{-1, 1, 0, 1, -1, 0}};
   const Eigen::MatrixXd contest = motions.transpose() * weights.asDiagonal() * motions;
   return symmetric_pairs(contest).vectors;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kKinds = {"fore-aft bending", "lateral bending",
                                                     "torsion", "axial"};
-/// Kind of motion that x, y, z, theta_x, theta_y and theta_z belong to.
+/// Kind of motion for each of x, y, z, theta_x, theta_y and theta_z.
 constexpr std::array<std::size_t, 6> kKindOfMotion = {0, 1, 3, 1, 0, 2};
 
 }  // namespace

@@ -7,13 +7,13 @@
 
 namespace flexneck::fe_modal {
 
-/// All that the reduction of a body asks of its matrices.
+/// Operators of a body's matrices for its reduction.
 struct BodyOperators {
   BlockOperator stiffness;  ///< K x, N/m
   BlockOperator mass;       ///< M x, kg
   BlockOperator solve;      ///< (K - shift M)^-1 f
   double shift = 0;         ///< zero for a fixed body, below zero for a free one, 1/s^2
-  Ranks ranks = {};         ///< whose rows they take and give
+  Ranks ranks = {};         ///< ranks whose rows the operators take and give
 };
 
 /// @param system, inverse must outlive the operators

@@ -11,7 +11,8 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// Pairs on the principal axes have the second moments of mass, the centre what mass is left.
+/// Adds particles for a point mass: pairs on the principal axes have its second moments of mass,
+/// one at the centre the remaining mass.
 void add_particles(const mesher::PointMass& mass, std::vector<Particle>& particles) {
   const Eigen::Matrix3d inertia = inertia_of(mass);
   const Eigen::Vector3d center(mass.center_m.data());

@@ -11,16 +11,16 @@
 namespace flexneck::fe_modal {
 
 /// A mass that moves rigidly with a site. Particles of a rigid body at a reference point have its
-/// mass, first and second moments of mass, some by masses below zero.
+/// mass, first and second moments of mass; some of their masses are negative.
 struct Particle {
   double mass_kg = 0;
   std::int32_t site = 0;  ///< a node, or the translation of a reference point
-  Eigen::Vector3d arm_m = Eigen::Vector3d::Zero();  ///< from the site, about which it turns
+  Eigen::Vector3d arm_m = Eigen::Vector3d::Zero();  ///< arm from the site, about which it rotates
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
-  Eigen::Matrix3Xd motions;  ///< (3, m) in each mode
+  Eigen::Matrix3Xd motions;  ///< (3, m) motion in each mode
 };
 
-/// The mesh's point masses, with their motions in the modes, (dofs, m).
+/// Particles of the mesh's point masses, with their motions in the modes, (dofs, m).
 std::vector<Particle> particles_of(const mesher::Mesh& mesh, const DofMap& dof_map,
                                    const Eigen::MatrixXd& modes);
 

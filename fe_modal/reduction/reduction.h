@@ -16,29 +16,29 @@ namespace flexneck::fe_modal {
 
 struct Reduction {
   EigenPairs pairs;                ///< M-orthonormal, ascending
-  std::vector<std::string> kinds;  ///< of each pair, see basis_kind.h
-  /// For each interface; none for a body whose modes do not hold all its rigid motions.
+  std::vector<std::string> kinds;  ///< kind of each pair, see basis_kind.h
+  /// For each interface; empty for a body whose modes do not contain all its rigid motions.
   std::vector<StaticResponse> responses;
 };
 
-/// The lowest eigenpairs of K x = lambda M x for any symmetric positive M.
+/// Solver for the lowest eigenpairs of K x = lambda M x for any symmetric positive M.
 using ModeSolver = std::function<EigenPairs(Mat mass, Eigen::Index count)>;
 
-/// Completes the eigenvectors of a body by the static shapes of its interfaces: residual
-/// attachment modes (MacNeal, Comput. Struct. 1 (1971); Rubin, AIAA J. 13 (1975)), of a free body
-/// with inertia relief. Each has a frequency and is M-orthonormal to all others. Shapes that depend
-/// on others or that the modes hold already are dropped and reported.
+/// Completes the eigenvectors of a body by the static shapes of its interfaces: residual attachment
+/// modes (MacNeal, Comput. Struct. 1 (1971); Rubin, AIAA J. 13 (1975)), for a free body with
+/// inertia relief. Each has a frequency and is M-orthonormal to all others. Shapes that depend on
+/// others or that the modes already contain are dropped and reported.
 /// @param normal eigenpairs of the body; eigenvalues of rigid motions are exactly zero
-/// @param kind normal: nothing is added
-/// @param rigid_count rigid motions that the boundary leaves the body
+/// @param kind kind of the basis; normal adds no shapes
+/// @param rigid_count number of rigid motions that the supports leave the body
 /// @throws InputError if a free body's basis lacks rigid motions; ComputationError from the solver.
 Reduction complete_modes(const BodyOperators& body, const EigenPairs& normal,
                          const std::vector<InterfaceLoads>& interfaces, BasisKind kind,
                          Eigen::Index rigid_count, const Progress& progress);
 
-/// Modes with the average motions of the interfaces fixed, and the interfaces' static shapes (Craig
-/// and Bampton, AIAA J. 6 (1968)), made orthonormal by the reduced eigenproblem. Of its vectors the
-/// `count` lowest, perhaps none, stand for modes, the others are corrections.
+/// Computes modes with the average motions of the interfaces fixed, and the interfaces' static
+/// shapes (Craig and Bampton, AIAA J. 6 (1968)), made orthonormal by the reduced eigenproblem. The
+/// `count` lowest of its vectors, perhaps none, represent modes, the others are corrections.
 /// @pre the body is fixed
 Reduction craig_bampton(const BodyOperators& body, Mat mass, const ModeSolver& solve_modes,
                         Eigen::Index count, const std::vector<InterfaceLoads>& interfaces,

@@ -8,7 +8,8 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// The second pass removes the rounding that the first one has magnified.
+/// Number of orthogonalisation passes: the second removes the rounding that the first has
+/// magnified.
 constexpr int kPasses = 2;
 
 Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& matrix) {
@@ -27,7 +28,7 @@ EigenPairs ritz_pairs(const BodyOperators& body, const Eigen::MatrixXd& modes,
     Eigen::MatrixXd mass = inner_products(body.ranks, pairs.vectors, body.mass(pairs.vectors));
     Eigen::MatrixXd stiffness =
         inner_products(body.ranks, pairs.vectors, body.stiffness(pairs.vectors));
-    // Shapes of unit mass, so that the small problem is as well conditioned as it can be.
+    // Shapes are scaled to unit mass, so that the small problem is as well conditioned as possible.
     const Eigen::VectorXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
     mass = scale.asDiagonal() * symmetric_part(mass) * scale.asDiagonal();
     stiffness = scale.asDiagonal() * symmetric_part(stiffness) * scale.asDiagonal();

@@ -8,7 +8,7 @@
 
 namespace flexneck::fe_modal {
 
-/// Ritz pairs of K x = lambda M x in the space of some shapes, less what modes have of them.
+/// Ritz pairs of K x = lambda M x in the space of some shapes, less the modes' part of them.
 /// @param shapes (dofs, k), independent of one another and of the modes
 /// @param modes M-orthonormal eigenvectors, (dofs, m); may have no columns
 /// @return k pairs, ascending, M-orthonormal and M-orthogonal to the modes

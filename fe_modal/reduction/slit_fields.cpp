@@ -14,10 +14,10 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// Jumps below this share of the largest are none.
+/// Fraction of the largest jump below which a jump is zero.
 constexpr double kNone = 1e-6;
-/// Pairs that open by less than this share of the largest lie at the tip, where the direction in
-/// which they restrict the openings is that of rounding.
+/// Fraction of the largest opening below which pairs lie at the tip, where rounding determines the
+/// direction in which they restrict the openings.
 constexpr double kAtTip = 1e-3;
 
 using Pairs = Eigen::Matrix3Xd;  ///< (3, p)
@@ -33,7 +33,7 @@ Pairs normals_of(const mesher::Slit& slit) {
   return normals;
 }
 
-/// Jumps of all shapes, (3 p, k), and their parts along the normals, (p, k).
+/// Jumps of all shapes, (3 p, k), and their components along the normals, (p, k).
 struct Jumps {
   Jumps(const mesher::Slit& slit, const std::vector<Eigen::Matrix3Xd>& shapes) {
     const Pairs normals = normals_of(slit);
@@ -52,9 +52,9 @@ struct Jumps {
   Eigen::MatrixXd whole, along, across;
 };
 
-/// Of the combinations x of two openings (p, 2) those with openings * x >= 0 lie in an angle: its
-/// two sides, as columns.
-/// @throws InputError if nothing but zero does
+/// Sides, as columns, of the cone of combinations x of two openings, (p, 2), with openings * x >=
+/// 0.
+/// @throws InputError if only zero satisfies this
 Eigen::Matrix2d sides_of_cone(const Eigen::MatrixX2d& openings, const std::string& slit) {
   const Eigen::Vector2d mean = openings.colwise().sum().normalized();
   const double largest = openings.rowwise().norm().maxCoeff();
@@ -76,7 +76,8 @@ Eigen::Matrix2d sides_of_cone(const Eigen::MatrixX2d& openings, const std::strin
   return sides;
 }
 
-/// Jumps that open the slit, across the normals, too, as free sides do, (3 p, one or two).
+/// Jumps that open the slit, with the accompanying motion of its free sides across the normals, (3
+/// p, one or two).
 Eigen::MatrixXd openings_of(const Jumps& jumps, const std::string& slit) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jumps.along,
                                               Eigen::ComputeThinU | Eigen::ComputeThinV);
@@ -91,7 +92,7 @@ Eigen::MatrixXd openings_of(const Jumps& jumps, const std::string& slit) {
   return jumps.whole * (svd.matrixV().leftCols<2>() * sides_of_cone(both, slit));
 }
 
-/// (3 p, independent ones)
+/// Independent jumps across the normals, (3 p, their number).
 Eigen::MatrixXd slidings_of(const Eigen::MatrixXd& across, double strongest) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(across, Eigen::ComputeThinU);
   const Eigen::Index count = (svd.singularValues().array() > kNone * strongest).count();

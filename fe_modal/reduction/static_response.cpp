@@ -10,12 +10,12 @@ namespace flexneck::fe_modal {
 namespace {
 
 constexpr const char* kSolving = "solving for static shapes";
-/// Of the energy norm of a static shape.
+/// Largest error of a static shape in the energy norm, relative.
 constexpr double kTolerance = 1e-10;
 
-/// K x = f of each column by conjugate gradients; K may be singular where f has nothing of its null
-/// space.
-/// @param within  energy norm of what may be left of each column
+/// Solves K x = f for each column by conjugate gradients; K may be singular if f has no component
+/// in its null space.
+/// @param within  largest energy norm of the error of each column
 Eigen::MatrixXd conjugate_gradients(const Ranks& ranks, const BlockOperator& stiffness,
                                     const BlockOperator& precondition, const Eigen::MatrixXd& loads,
                                     const Eigen::VectorXd& within) {
@@ -72,7 +72,7 @@ Eigen::MatrixXd static_response_beyond(const BodyOperators& body, const EigenPai
                                        const Eigen::MatrixXd& loads) {
   const Eigen::MatrixXd& modes = kept.vectors;
   const Eigen::MatrixXd momenta = modes.cols() > 0 ? body.mass(modes) : modes;
-  // Modes come back by rounding.
+  // Modes are removed after each solve too, since rounding brings them back.
   const auto solve = [&](Eigen::MatrixXd residual) {
     remove_modes(body.ranks, momenta, modes, residual);
     Eigen::MatrixXd response = body.solve(residual);
@@ -81,8 +81,8 @@ Eigen::MatrixXd static_response_beyond(const BodyOperators& body, const EigenPai
   };
   Eigen::MatrixXd rest = loads;
   remove_modes(body.ranks, momenta, modes, rest);
-  // Of a fixed body and modes that are exact, two block solves are all: the second one takes away
-  // what rounding left.
+  // Two block solves suffice for a fixed body and exact modes: the second removes the rounding
+  // errors of the first.
   Eigen::MatrixXd response = solve(rest);
   const Eigen::MatrixXd residual = rest - body.stiffness(response);
   const Eigen::MatrixXd correction = solve(residual);

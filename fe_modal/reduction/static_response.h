@@ -8,28 +8,29 @@
 
 namespace flexneck::fe_modal {
 
-/// The columns less what the modes have of them, M-orthogonal to the modes.
+/// Removes the modes' part from columns, which become M-orthogonal to the modes.
 /// @param modes (dofs, m), M-orthonormal; may have no columns
-/// @param momenta M times the modes
+/// @param momenta MX, the mass matrix times the modes
 void remove_modes(const Ranks& ranks, const Eigen::MatrixXd& modes, const Eigen::MatrixXd& momenta,
                   Eigen::MatrixXd& columns);
 
-/// What static shapes have beyond some modes: X with K X = F - M Phi Phi^T F, M-orthogonal to the
-/// modes Phi. If Phi holds a free body's six rigid motions, X is its deformation under the loads
+/// Static shapes less the part of some modes: X with K X = F - M Phi Phi^T F, M-orthogonal to the
+/// modes Phi. If Phi contains a free body's six rigid motions, X is its deformation under the loads
 /// and the inertia forces that balance them (inertia relief). Without modes it is K^-1 F.
 ///
-/// With the factor of K and a step of refinement; of a free body, whose factor is that of a shifted
-/// stiffness, by conjugate gradients.
+/// The solution uses the factor of K and a step of refinement; where that does not suffice, as for
+/// a free body, whose factor is that of a shifted stiffness, conjugate gradients.
 /// @param loads F, (dofs, n)
-/// @param kept the modes, M-orthonormal eigenpairs; all rigid motions if the shift is not zero
-/// @throws ComputationError if they do not converge.
+/// @param kept the modes, M-orthonormal eigenpairs; all rigid motions among them if the shift is
+/// not zero
+/// @throws ComputationError if the iteration does not converge.
 Eigen::MatrixXd static_response_beyond(const BodyOperators& body, const EigenPairs& kept,
                                        const Eigen::MatrixXd& loads);
 
-/// What the modes have of static shapes: X^T M X and F^T X of X = sum phi (phi^T F) / lambda over
-/// the modes that are no rigid motion.
+/// The modes' part of static shapes: X^T M X and F^T X of X = sum phi (phi^T F) / lambda over the
+/// modes that are no rigid motion.
 struct ModalResponse {
-  Eigen::MatrixXd amplitudes;  ///< of the modes, (m, n)
+  Eigen::MatrixXd amplitudes;  ///< amplitudes of the modes, (m, n)
   Eigen::MatrixXd compliance;  ///< F^T X, (n, n)
   Eigen::MatrixXd mass;        ///< X^T M X, (n, n)
 };

@@ -8,9 +8,9 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// What modes have of the static shapes. The stiffness couples modes that are not exact with the
-/// shapes beyond them; with this coupling in the compliance, its error is of second order in those
-/// of the modes.
+/// The modes' part of the static shapes. The stiffness couples inexact modes with the remaining
+/// shapes; with this coupling in the compliance, its error is of second order in those of the
+/// modes.
 ModalResponse modal_part(const BodyOperators& body, const EigenPairs& kept,
                          const StaticShapes& shapes) {
   const Eigen::Index count = shapes.loads.cols();

@@ -15,23 +15,23 @@
 
 namespace flexneck::fe_modal {
 
-/// Six unit loads of one interface, force (3) and moment (3), which are spread so that their work
-/// is that of the interface's average motion.
+/// Six unit loads on one interface, force (3) and moment (3), distributed so that their work is
+/// that of the interface's average motion.
 struct InterfaceLoads {
   std::string name;
   Eigen::MatrixXd forces;      ///< C^T, (own dofs, 6)
-  bool corrects_basis = true;  ///< whether static shapes of this interface join the basis
+  bool corrects_basis = true;  ///< true if static shapes of this interface join the basis
 };
 
 /// Loads of an interface on the free degrees of freedom.
 InterfaceLoads interface_loads(const std::string& name, const RigidAverage& average,
                                const FieldMap& field_map);
 
-/// Static shapes of all interfaces' loads, less what some modes have of them.
+/// Static shapes of all interfaces' loads, less the part of some modes.
 struct StaticShapes {
   Eigen::MatrixXd loads;       ///< F, (dofs, 6 p)
   Eigen::MatrixXd beyond;      ///< X less the modes' part, (dofs, 6 p)
-  Eigen::MatrixXd rest;        ///< F^T times that
+  Eigen::MatrixXd rest;        ///< F^T times the shapes beyond the modes
   Eigen::VectorXd compliance;  ///< diagonal of F^T X
   std::vector<StaticResponse> responses;
 };
@@ -40,7 +40,7 @@ StaticShapes static_shapes(const BodyOperators& body, const EigenPairs& kept,
                            const std::vector<InterfaceLoads>& interfaces);
 
 /// Combinations of the loads on interfaces that correct the basis, (6 p, k): their shapes are
-/// K-orthonormal. Tells how many are dropped.
+/// K-orthonormal. Reports the number of dropped ones.
 Eigen::MatrixXd correcting_loads(const StaticShapes& shapes,
                                  const std::vector<InterfaceLoads>& interfaces,
                                  const Progress& progress);

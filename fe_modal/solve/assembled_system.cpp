@@ -10,7 +10,7 @@ namespace flexneck::fe_modal {
 Eigen::MatrixXd AssembledSystem::rigid_modes() const {
   Eigen::MatrixXd modes = fields().layout().own_rows(
       model_.rigid().vectors(model_.mesh(), model_.connections(), model_.dof_map()));
-  constexpr int kPasses = 2;  // the second one removes the rounding of the first
+  constexpr int kPasses = 2;  // the second pass removes the rounding of the first
   for (int pass = 0; pass < kPasses && modes.cols() > 0; ++pass) {
     const Eigen::MatrixXd gram = inner_products(ranks(), modes, block_product(mass(), modes));
     const Eigen::LLT<Eigen::MatrixXd> factor((gram + gram.transpose()) / 2);

@@ -15,7 +15,7 @@ namespace flexneck::fe_modal {
 class AssembledSystem : public ModalSystem {
  public:
   /// @param model must outlive this
-  /// @throws what assemble() throws on any rank.
+  /// @throws as assemble() does on any rank.
   explicit AssembledSystem(const Model& model) : model_(model), matrices_(assemble(model)) {}
 
   const Model& model() const { return model_; }
@@ -26,13 +26,14 @@ class AssembledSystem : public ModalSystem {
   Mat mass() const override { return matrices_.mass.get(); }
   Solver solver() const override { return model_.options().solver; }
 
-  /// The rigid motions that the body keeps, M-orthonormal, (own dofs, k).
+  /// Rigid motions of the body under its supports, M-orthonormal, (own dofs, k).
   Eigen::MatrixXd rigid_modes() const;
-  /// Between the nodes of this rank's elements; alone between all, kg.
+  /// Mass between the nodes of this rank's elements, in a serial run between all nodes, kg.
   const NodalMass& nodal_mass() const { return matrices_.nodal_mass; }
-  /// int rho f g dV of all pairs of fields on all nodes, (n, k) -> (k, k).
+  /// Integrals int rho f g dV of all pairs of fields on all nodes, (n, k) -> (k, k).
   Eigen::MatrixXd mass_integrals(const Eigen::MatrixXd& fields) const;
-  /// M a of accelerations of all nodes on the free degrees of freedom, a column each.
+  /// Forces M a on the free degrees of freedom for accelerations a of all nodes, a column for each
+  /// field.
   Eigen::MatrixXd inertia_forces(std::span<const Eigen::Matrix3Xd> accelerations) const;
 
  private:

@@ -17,29 +17,30 @@ namespace {
 
 constexpr const char* kSearching = "solving the eigenproblem";
 
-/// How well a search has to find its pairs.
+/// Required accuracy of a search.
 struct Accuracy {
-  double
-      residual;  ///< of (K - shift M)^-1 M, relative to its eigenvalue theta = 1 / (lambda - shift)
-  /// Beyond two for each pair wanted, of the Krylov space: with so many the first space nearly
-  /// always suffices. Ten modes of the neck need 28 vectors at 26 388 degrees of freedom and 30 at
-  /// 191 388; with two fewer the search restarts and takes half as long again.
+  double residual;  ///< residual of (K - shift M)^-1 M over its theta = 1 / (lambda - shift)
+  /// Vectors of the Krylov space beyond two for each requested pair: with so many the first space
+  /// nearly always suffices. Ten modes of the neck need 28 vectors at 26 388 degrees of freedom and
+  /// 30 at 191 388; with two fewer the search restarts and takes half as long again.
   Eigen::Index more_vectors;
-  bool takes_choices = true;  ///< obeys the options that a user chose
+  bool takes_choices = true;  ///< true if options that a user chose apply
 };
-/// The error of an eigenvector is the residual over the relative gap to its neighbour: 1e-10 for
-/// frequencies 1 % apart.
+/// Accuracy for eigenvectors. Their error is the residual over the relative gap to the neighbour:
+/// 1e-10 for frequencies 1 % apart.
 constexpr Accuracy kOfVectors{1e-12, 10};
-/// An eigenvalue is exact to the square.
+/// Accuracy for eigenvalues alone: their error is of the order of the square of the residual.
 constexpr Accuracy kOfValues{1e-8, 2};
-/// Of a pair that is only looked for to see that none is missing.
+/// Accuracy for a pair that only shows that none is missing.
 constexpr Accuracy kOfNext{1e-3, 6, false};
-/// A pair beside those found is one of them that was missed if its eigenvalue is below the last
-/// one's by more than this share, or a copy of it if it is not above it by more.
+/// Relative margin for a pair found beside the others: it was missed among them if its eigenvalue
+/// is below the last one's by more than this fraction, or is a copy of the last if it is not above
+/// it by more.
 constexpr double kSame = 1e-7;
 constexpr PetscInt kRestarts = 200;
 
-/// A number between -1/2 and 1/2 that depends on its place alone (the mixer of splitmix64).
+/// Pseudo-random number between -1/2 and 1/2 that depends on its index alone (the mixer of
+/// splitmix64).
 double random_entry(std::uint64_t place) {
   std::uint64_t bits = (place + 1) * 0x9e3779b97f4a7c15U;
   bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9U;
@@ -47,9 +48,9 @@ double random_entry(std::uint64_t place) {
   return std::ldexp(static_cast<double>((bits ^ (bits >> 31U)) >> 11U), -53) - 0.5;
 }
 
-/// Of searches in the same space each has its own start: of a multiple eigenvalue the first one
-/// finds just the eigenvector that its start has, and nothing else is left of that start. The same
-/// for any number of ranks.
+/// Start vector of a search. Each search in the same space has its own: for a multiple eigenvalue
+/// the first one finds only the eigenvector that its start vector contains, and nothing else
+/// remains of that vector. It is the same for any number of ranks.
 Eigen::MatrixXd start_vector(Mat matrix, std::uint64_t search) {
   PetscInt first = 0;
   PetscInt end = 0;
@@ -60,10 +61,10 @@ Eigen::MatrixXd start_vector(Mat matrix, std::uint64_t search) {
   return start;
 }
 
-/// An EPS on the solver's factor: A x = theta B x, shift-inverted about zero or as it is.
+/// An EPS with the solver's factor: A x = theta B x, with shift-invert about zero or without.
 class Search {
  public:
-  /// @param a, b  of which the inverse is that of A with STSINVERT, and of B with STSHIFT
+  /// @param a, b  the inverse is that of A with STSINVERT, and of B with STSHIFT
   Search(Mat a, Mat b, const LinearSolver& inverse, STType transform)
       : inverse_(inverse), operators_{a, b} {
     require(EPSCreate(communicator(inverse.ranks()), eps_.out()), kSearching);
@@ -74,9 +75,10 @@ class Search {
     require(EPSGetST(eps, &transform_), kSearching);
     require(STSetType(transform_, transform), kSearching);
     require(STSetKSP(transform_, inverse.ksp()), kSearching);
-    require(EPSSetPurify(eps, PETSC_FALSE), kSearching);  // takes a solve for each, one by one
+    // Purification would take a solve for each vector, one by one.
+    require(EPSSetPurify(eps, PETSC_FALSE), kSearching);
   }
-  /// An EPS resets its solver, which goes on to serve others.
+  /// Detaches the solver, since an EPS resets its solver and this one is used further.
   ~Search() {
     KspHandle none;
     if (KSPCreate(communicator(inverse_.ranks()), none.out()) == 0)
@@ -98,7 +100,7 @@ class Search {
             kSearching);
   }
   /// @param start  (own rows, 1)
-  /// @return pairs of the problem that have converged, as many as wanted or fewer
+  /// @return converged pairs of the problem, as many as requested or fewer
   EigenPairs solve(Eigen::Index count, const Accuracy& accuracy, const Eigen::MatrixXd& start) {
     const Eigen::Index size = size_of(operators_[0]);
     const auto vectors = static_cast<PetscInt>(std::min(size, 2 * count + accuracy.more_vectors));
@@ -127,8 +129,8 @@ class Search {
   }
 
  private:
-  /// "SLEPc's krylovschur with sinvert: 12 pairs, residuals up to 3e-14; 28 vectors, restarted 0
-  /// times"
+  /// Text of the search, "SLEPc's krylovschur with sinvert: 12 pairs, residuals up to 3e-14; 28
+  /// vectors, restarted 0 times".
   std::string describe(PetscInt converged) const {
     EPSType method = nullptr;
     STType transform = nullptr;
@@ -156,8 +158,8 @@ class Search {
   ST transform_ = nullptr;
 };
 
-/// What one step of inverse iteration makes of a random vector, beside the known eigenvectors; no
-/// columns if that is rounding: then nothing else has mass.
+/// Start vector beside the known eigenvectors: a step of inverse iteration on a random vector; no
+/// columns if it is only rounding, so that no further vector has mass.
 Eigen::MatrixXd start_beside(Mat mass, const LinearSolver& inverse, const Eigen::MatrixXd& known,
                              std::uint64_t number) {
   constexpr double kRounding = 1e-10;
@@ -173,8 +175,8 @@ Eigen::MatrixXd start_beside(Mat mass, const LinearSolver& inverse, const Eigen:
   return start;
 }
 
-/// The lowest pairs beside the known ones, ascending; fewer where there are no more.
-/// @param number  of the search in this space
+/// Lowest pairs beside the known ones, ascending; fewer if there are no more.
+/// @param number  index of the search in this space
 EigenPairs search(Mat mass, const LinearSolver& inverse, Eigen::Index count,
                   const Accuracy& accuracy, const Eigen::MatrixXd& known, std::uint64_t number) {
   const Eigen::MatrixXd start = start_beside(mass, inverse, known, number);
@@ -195,7 +197,7 @@ Eigen::MatrixXd beside(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right
   return all;
 }
 
-/// Puts a pair in its place among ascending ones and drops the last.
+/// Inserts a pair into ascending ones and drops the last.
 void insert(const EigenPairs& one, EigenPairs& pairs) {
   Eigen::Index place = pairs.values.size() - 1;
   for (; place > 0 && pairs.values[place - 1] > one.values[0]; --place) {
@@ -206,7 +208,8 @@ void insert(const EigenPairs& one, EigenPairs& pairs) {
   pairs.vectors.col(place) = one.vectors.col(0);
 }
 
-/// Rayleigh's quotients of K - shift M itself, where iterations may have ended early.
+/// Checks Rayleigh's quotients of K - shift M itself, for solvers whose iterations may have ended
+/// early.
 void check_quotients(Mat mass, const LinearSolver& inverse, const EigenPairs& pairs) {
   constexpr double kSameQuotient = 1e-6;
   const Ranks& ranks = inverse.ranks();
@@ -221,7 +224,7 @@ void check_quotients(Mat mass, const LinearSolver& inverse, const EigenPairs& pa
       "inverse; change modes.petsc_options");
 }
 
-/// The lowest pairs beside the known ones, of which none is missing.
+/// Lowest pairs beside the known ones, without gaps.
 EigenPairs lowest(Mat mass, const LinearSolver& inverse, Eigen::Index count,
                   const Accuracy& accuracy, const Eigen::MatrixXd& known) {
   std::uint64_t number = 0;
@@ -244,7 +247,8 @@ EigenPairs lowest(Mat mass, const LinearSolver& inverse, Eigen::Index count,
   return pairs;
 }
 
-/// A step of inverse iteration of all vectors at once, which leaves them nothing that has no mass.
+/// Applies a step of inverse iteration to all vectors at once, which removes components without
+/// mass.
 void purify(Mat mass, const LinearSolver& inverse, EigenPairs& pairs) {
   const Eigen::ArrayXd scales = pairs.values.array() - inverse.shift();
   pairs.vectors = inverse.solve(block_product(mass, pairs.vectors) * scales.matrix().asDiagonal());
@@ -268,11 +272,12 @@ double largest_eigenvalue(Mat a, const LinearSolver& inverse, double of_interest
   struct Floor {
     double of_interest;
   } floor{of_interest};
-  // Converged is also what has settled too near to zero.
+  // An eigenvalue counts as converged, too, once it has settled below the smallest one of interest.
   const auto relative_error = [](EPS eps, PetscScalar value, PetscScalar /*imaginary*/,
                                  PetscReal residual, PetscReal* error,
                                  void* context) -> PetscErrorCode {
-    constexpr PetscInt kSettled = 4;  // by then the largest eigenvalue is known to some digits
+    // Number of iterations after which the largest eigenvalue is known to some digits.
+    constexpr PetscInt kSettled = 4;
     const double least = static_cast<const Floor*>(context)->of_interest;
     PetscInt iterations = 0;
     const PetscErrorCode code = EPSGetIterationNumber(eps, &iterations);

@@ -17,18 +17,18 @@ MatHandle indefinite_factor_of(Mat symmetric) {
   const auto set = [&](PetscInt control, PetscInt value) {
     require(MatMumpsSetIcntl(factor.get(), control, value), kCounting);
   };
-  set(13, 1);    // a root by ScaLAPACK would not count its negative pivots
-  set(24, 1);    // finds null pivots
+  set(13, 1);    // with ScaLAPACK at the root negative pivots there would not be counted
+  set(24, 1);    // detection of null pivots
   set(12, 1);    // no compressed ordering
   set(6, 0);     // no maximum transversal
-  set(14, 100);  // per cent of workspace beyond the estimate, which pivoting takes
+  set(14, 100);  // per cent of workspace beyond the estimate, for pivoting
   return factor;
 }
 
 }  // namespace
 
 Eigen::Index negative_eigenvalues(Mat symmetric, const Ranks& ranks) {
-  // A matrix marked as positive definite MUMPS would eliminate without pivoting.
+  // MUMPS would eliminate without pivoting in a matrix that is marked as positive definite.
   require(MatSetOption(symmetric, MAT_SPD, PETSC_FALSE), kCounting);
   require(MatSetOption(symmetric, MAT_SYMMETRIC, PETSC_TRUE), kCounting);
   const MatHandle factor = indefinite_factor_of(symmetric);

@@ -7,9 +7,9 @@
 
 namespace flexneck::fe_modal {
 
-/// Negative eigenvalues of a symmetric matrix, by the signs of the pivots that MUMPS eliminates
-/// with (Sylvester's law of inertia): of K - sigma M, how many modes are below sigma. Collective.
-/// @throws InputError where memory does not hold the factor.
+/// Number of negative eigenvalues of a symmetric matrix, by the signs of the pivots of MUMPS
+/// (Sylvester's law of inertia): for K - sigma M, the number of modes below sigma. Collective.
+/// @throws InputError if memory does not hold the factor.
 /// @throws ComputationError if the matrix is singular to rounding, or the factorisation fails.
 Eigen::Index negative_eigenvalues(Mat symmetric, const Ranks& ranks);
 

@@ -22,18 +22,19 @@ constexpr const char* kWayOut =
     "take a coarser mesh, or the solver mumps on several ranks or out of core (modes.petsc_options "
     "= \"-st_mat_mumps_icntl_22 1\")";
 
-constexpr const char* kPrefix = "st_";  // as that of an EPS has
-/// Of CHOLMOD's integers of 32 bits.
+constexpr const char* kPrefix = "st_";  // prefix of options as for an EPS
+/// Largest number of entries that CHOLMOD's integers of 32 bits can count.
 constexpr double kMostEntries = std::numeric_limits<std::int32_t>::max();
 
-/// Workspace of MUMPS beyond what its analysis says, per cent: its own choice, and one try more.
+/// Workspace of MUMPS beyond the estimate of its analysis, per cent: its default, and a second
+/// attempt.
 constexpr int kWorkspace = 20;
 constexpr int kMoreWorkspace = 100;
 
 // Values of INFOG(1) in the user's guide of MUMPS.
 constexpr PetscInt kSingular = -10;
 constexpr PetscInt kNoMemory = -13;
-constexpr PetscInt kBeyondLimit = -19;  // that ICNTL(23) sets
+constexpr PetscInt kBeyondLimit = -19;  // limit that ICNTL(23) sets
 constexpr PetscInt kNotDefinite = -40;
 
 bool wants_more_workspace(PetscInt status) {
@@ -63,7 +64,8 @@ LinearSolver::LinearSolver(Mat shifted_stiffness, double shift, const Ranks& ran
   factorise();
   MatInfo info{};
   require(MatGetInfo(factor(), MAT_GLOBAL_SUM, &info), kFactorising);
-  // MUMPS tells millions with a sign once they are more than an integer counts.
+  // MUMPS reports millions, with a negative sign, if the number of entries exceeds the range of an
+  // integer.
   constexpr PetscInt kEntries = 9;
   const PetscInt entries = solver_ == Solver::mumps ? infog(factor(), kEntries) : 0;
   nonzeros_ =
@@ -99,8 +101,8 @@ Mat LinearSolver::factor() const {
   return factor;
 }
 
-/// The symbolic factorisation alone says what the numeric one will take: PETSc's PC does both at
-/// once, so that here is a factor that lives no longer than that.
+/// Estimates the memory of the numeric factorisation by a symbolic one alone. PETSc's PC does both
+/// at once; therefore a trial factor is made here, which is discarded at the end.
 void LinearSolver::check_memory() const {
   MatHandle trial;
   IsHandle rows;
@@ -117,7 +119,7 @@ void LinearSolver::check_memory() const {
   require(MatCholeskyFactorSymbolic(trial.get(), matrix(), rows.get(), &how), kMeasuring);
   if (is_mumps) {
     constexpr PetscInt kIsOutOfCore = 22;
-    constexpr PetscInt kMegabytesInCore = 16;  // of the rank that takes most
+    constexpr PetscInt kMegabytesInCore = 16;  // maximum over the ranks
     constexpr PetscInt kMegabytesOutOfCore = 26;
     constexpr double kMegabyte = 1e6;
     PetscInt is_out_of_core = 0;

@@ -12,38 +12,38 @@
 
 namespace flexneck::fe_modal {
 
-/// A matrix that ought to be positive definite is not.
+/// Error of a matrix that is not positive definite.
 class NotDefinite : public ComputationError {
  public:
   using ComputationError::ComputationError;
 };
 
-/// (K - shift M)^-1 by PETSc's KSP with the Cholesky factor of CHOLMOD or MUMPS. Vectors are this
-/// rank's rows; every member but the plain ones is collective.
+/// Operator (K - shift M)^-1 by PETSc's KSP with the Cholesky factor of CHOLMOD or MUMPS. Vectors
+/// are this rank's rows; all members except simple accessors are collective.
 class LinearSolver {
  public:
-  /// Factorises. CHOLMOD eliminates the rows in their order (elimination_order.h) and takes one
+  /// Factorises. CHOLMOD eliminates the rows in their order (elimination_order.h) and uses one
   /// process; MUMPS finds an order of its own.
   /// @param shifted_stiffness K - shift M, symmetric, marked as positive definite; stays alive
   /// @throws NotDefinite if it is not positive definite.
-  /// @throws OutOfMemory before the numeric factorisation where memory does not hold the factor.
-  /// @throws ComputationError if the factorisation fails otherwise.
+  /// @throws OutOfMemory before the numeric factorisation if memory does not hold the factor.
+  /// @throws ComputationError if the factorisation fails for another reason.
   LinearSolver(Mat shifted_stiffness, double shift, const Ranks& ranks = {},
                Solver solver = Solver::automatic);
 
   double shift() const { return shift_; }
   const Ranks& ranks() const { return ranks_; }
   Mat matrix() const { return matrix_.get(); }
-  /// For an EPS, which must take another before it is destroyed: it resets its own.
+  /// Solver for an EPS, which must be given another one before it is destroyed: it resets its own.
   KSP ksp() const { return ksp_.get(); }
-  /// Whether a user has chosen a method that iterates with the factor, and may end early.
+  /// True if a user has chosen a method that iterates with the factor, and may end early.
   bool iterates() const;
-  /// Entries of the factor.
+  /// Number of entries of the factor.
   double nonzeros() const { return nonzeros_; }
-  /// For each column, (own dofs, k).
+  /// Solves for each column, (own dofs, k).
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const;
-  /// "CHOLMOD: the factor has 12.3 million entries; 34 solves, 5 of blocks": calls of MatSolve and
-  /// MatMatSolve.
+  /// Text of the factor and the number of calls of MatSolve and MatMatSolve: "CHOLMOD: the factor
+  /// has 12.3 million entries; 34 solves, 5 of blocks".
   std::string describe() const;
 
  private:
@@ -61,7 +61,7 @@ class LinearSolver {
   mutable int block_solves_ = 0;
 };
 
-/// (K - shift M)^-1 of a system.
+/// Factorises K - shift M of a system.
 std::unique_ptr<LinearSolver> shift_inverse(const ModalSystem& system, double shift);
 
 }  // namespace flexneck::fe_modal

@@ -21,14 +21,16 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// Motions without strain are looked for in this number: two bodies that nothing fixes have twelve.
+/// Largest number of strainless motions that are looked for: two bodies without supports have
+/// twelve.
 constexpr Eigen::Index kMaxMotions = 12;
-/// A singular value, or a deviation from a rigid motion, below this share of the largest is none.
+/// Fraction of the largest value below which a singular value, or a deviation from a rigid motion,
+/// is zero.
 constexpr double kNone = 1e-3;
 
 using Motions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-/// The columns span the fields on all nodes, 3 n rows, that cost no strain energy.
+/// Fields on all nodes without strain energy, (3 n, their number).
 Eigen::MatrixXd strainless_fields(const AssembledSystem& system) {
   const std::unique_ptr<const LinearSolver> inverse =
       shift_inverse(system, -eigenvalue_scale(system.model().mesh()));
@@ -63,7 +65,7 @@ std::vector<Part> rigid_parts_of(const mesher::Mesh& mesh) {
   return parts;
 }
 
-/// The rigid motion of a part in each field; rotations are lengths at the distance `length_m`.
+/// Rigid motion of a part in each field; rotations as lengths at the distance `length_m`.
 Motions motions_of(const Part& part, const Eigen::MatrixXd& fields, double length_m) {
   Motions motions(6, fields.cols());
   for (Eigen::Index k = 0; k < fields.cols(); ++k) {
@@ -74,7 +76,7 @@ Motions motions_of(const Part& part, const Eigen::MatrixXd& fields, double lengt
   return motions;
 }
 
-/// Combinations of the fields in which the heaviest part stands still.
+/// Combinations of the fields in which the heaviest part does not move.
 Eigen::MatrixXd without_motion_as_a_whole(const std::vector<Part>& parts,
                                           const Eigen::MatrixXd& fields, double length_m) {
   const auto heaviest =
@@ -102,7 +104,7 @@ double deformation(const mesher::Mesh& mesh, const Part& part, const Eigen::Vect
   return deviation / displacement.colwise().norm().maxCoeff();
 }
 
-/// "z", or "(0.71, 0.71, 0)".
+/// Name of a direction: "z", or "(0.71, 0.71, 0)".
 std::string direction_name(Eigen::Vector3d direction) {
   Eigen::Index largest = 0;
   direction.cwiseAbs().maxCoeff(&largest);
@@ -112,7 +114,8 @@ std::string direction_name(Eigen::Vector3d direction) {
          fixed_text(direction[2], 2) + ")";
 }
 
-/// @param motion of a part: the only one it has; rotation as a length
+/// Describes the motion of a part.
+/// @param motion the only one that the part has; rotation as a length
 std::string describe_motion(const Part& part, Vector6d motion, double length_m) {
   motion.tail<3>() /= length_m;
   const Eigen::Vector3d translation = motion.head<3>();
@@ -120,18 +123,18 @@ std::string describe_motion(const Part& part, Vector6d motion, double length_m) 
   if (rotation.norm() * length_m < kNone * translation.norm()) {
     return "slides freely along " + direction_name(translation.normalized());
   }
-  // The point of the axis that is nearest to the part's centre does not move across it.
+  // The point of the axis nearest to the part's centre does not move across the axis.
   const Eigen::Vector3d axis = rotation.normalized();
   const Eigen::Vector3d to_axis = rotation.cross(translation) / rotation.squaredNorm();
   Eigen::Vector3d foot = part.average.point_m() + to_axis;
-  foot -= axis * axis.dot(foot);  // the same for all parts that turn together
+  foot -= axis * axis.dot(foot);  // the foot is the same for all parts that rotate together
   const double rounding = kNone * length_m;
   foot = foot.unaryExpr([&](double x) { return std::abs(x) < rounding ? 0.0 : x; });
   return "turns freely about " + direction_name(axis) + " through (" +
          rounded_texts({foot.data(), 3}, 3) + ") m";
 }
 
-/// How the part moves; nothing if it stands still.
+/// Description of a part's motion; nothing if it does not move.
 std::optional<std::string> describe_part(const Part& part, const Eigen::MatrixXd& fields,
                                          double length_m) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(motions_of(part, fields, length_m),

@@ -14,11 +14,11 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// Neighbours whose eigenvalues differ relatively by less belong to one cluster: 0.05 % in
-/// frequency, more than an eigenvalue that only serves as the next one is uncertain by, and what
-/// the mesh of a symmetric body may set apart.
+/// Relative difference of neighbouring eigenvalues below which they belong to one cluster: 0.05 %
+/// in frequency, more than the uncertainty of an eigenvalue that only serves as the next one, and
+/// than the difference that the mesh of a symmetric body may cause.
 constexpr double kCluster = 1e-3;
-/// Eigenvalues below this share of the shift are rigid-body motions.
+/// Fraction of the shift below which eigenvalues are rigid-body motions.
 constexpr double kRigidBody = 1e-6;
 
 std::string hertz(double eigenvalue) {
@@ -29,13 +29,14 @@ bool is_rigid(double eigenvalue, double shift) {
   return eigenvalue <= kRigidBody * std::abs(shift);
 }
 
-/// Whether values[k] begins a cluster.
+/// Returns whether values[k] begins a cluster.
 bool is_gap(const Eigen::VectorXd& values, Eigen::Index k, double shift) {
   if (k == 0) return true;
   return !is_rigid(values[k], shift) && values[k] - values[k - 1] >= kCluster * values[k];
 }
 
-/// The cluster that has values[k]: its first and, if it ends among the values, one past its last.
+/// The cluster that contains values[k]: its first index and, if it ends among the values, one past
+/// its last.
 struct Cluster {
   Eigen::Index begin;
   Eigen::Index end;
@@ -48,7 +49,7 @@ Cluster cluster_of(const Eigen::VectorXd& values, Eigen::Index k, double shift) 
   return cluster;
 }
 
-/// "the 6 rigid-body motions", "the 2 modes at 98.5 Hz"
+/// Text of a cluster: "the 6 rigid-body motions", "the 2 modes at 98.5 Hz".
 std::string name_of(const Cluster& cluster, const Eigen::VectorXd& values, double shift) {
   const std::string count = "the " + std::to_string(cluster.end - cluster.begin);
   const double first = values[cluster.begin];
@@ -64,7 +65,7 @@ std::string complete_below(double eigenvalue) {
   return "checked: no mode is missing below " + hertz(eigenvalue) + ", by inertia";
 }
 
-/// Of `count` modes among values of which none is missing.
+/// Sentence on the completeness of `count` modes among values without gaps.
 std::string completeness_of(const Eigen::VectorXd& values, Eigen::Index count, double shift) {
   const Cluster last = cluster_of(values, count - 1, shift);
   if (last.end == count) {
@@ -75,7 +76,7 @@ std::string completeness_of(const Eigen::VectorXd& values, Eigen::Index count, d
   return (last.begin == 0 ? kNotChecked : complete_below(between(values, last.begin))) + cut;
 }
 
-/// Rigid motions, whose eigenvalues are zero, before the other modes.
+/// Eigenpairs with the rigid motions, whose eigenvalues are zero, before the other modes.
 EigenPairs with_rigid(const Eigen::MatrixXd& rigid, const EigenPairs& elastic) {
   if (rigid.cols() == 0) return elastic;
   EigenPairs all{Eigen::VectorXd::Zero(rigid.cols() + elastic.values.size()),

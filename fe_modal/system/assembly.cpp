@@ -30,7 +30,7 @@ void finish(Mat matrix) {
   require(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY), kAdding);
 }
 
-/// Where rows have their entries: counts of a matrix with `width` rows for each block.
+/// Sparsity pattern of the rows: counts of entries for a matrix with `width` rows for each block.
 class Sparsity {
  public:
   Sparsity(const NodeGraph& graph, const DofLayout& layout)
@@ -45,7 +45,7 @@ class Sparsity {
           "mesh");
   }
 
-  /// Upper half, three rows a block.
+  /// Makes a matrix of the upper half, three rows a block.
   MatHandle upper() const {
     std::vector<PetscInt> inside;
     std::vector<PetscInt> outside;
@@ -64,13 +64,13 @@ class Sparsity {
             kMaking);
     require(MatSetOption(matrix.get(), MAT_IGNORE_LOWER_TRIANGULAR, PETSC_TRUE), kMaking);
     require(MatSetOption(matrix.get(), MAT_SPD, PETSC_TRUE), kMaking);
-    // Every row has its diagonal, though nothing may feel its degree of freedom.
+    // Every row has its diagonal, even if no stiffness acts on its degree of freedom.
     for (PetscInt row = 3 * begin_; row < 3 * end_; ++row)
       require(MatSetValue(matrix.get(), row, row, 0, ADD_VALUES), kAdding);
     return matrix;
   }
 
-  /// All entries, one row a block.
+  /// Makes a matrix of all entries, one row a block.
   MatHandle nodal() const {
     std::vector<PetscInt> inside;
     std::vector<PetscInt> outside;
@@ -101,14 +101,14 @@ class Sparsity {
 
   const NodeGraph& graph_;
   const DofLayout& layout_;
-  std::int32_t begin_, end_;  ///< blocks of this rank
+  std::int32_t begin_, end_;  ///< range of blocks of this rank
 };
 
-/// Adds element matrices to those of a body, its nodes by rising blocks: so PETSc finds the places
-/// of a row's entries one behind the other.
+/// Adds element matrices to those of a body, with the element's nodes in ascending blocks: PETSc
+/// then finds the places of a row's entries in sequence.
 class Adder {
  public:
-  /// @param blocks of the element's nodes; negative: it has none
+  /// @param blocks blocks of the element's nodes; negative: a node has none
   void set_nodes(std::span<const std::int32_t> blocks) {
     order_.clear();
     for (std::size_t i = 0; i < blocks.size(); ++i)
@@ -124,7 +124,7 @@ class Adder {
     }
   }
 
-  /// (3n, 3n) with degree of freedom a n + i.
+  /// Adds a matrix (3n, 3n) with degree of freedom a n + i.
   void add(const Eigen::MatrixXd& element, Mat matrix) {
     const Eigen::Index n = element.rows() / 3;
     places_.clear();
@@ -132,14 +132,14 @@ class Adder {
       for (Eigen::Index a = 0; a < 3; ++a) places_.push_back(a * n + i);
     insert(element, rows_, matrix);
   }
-  /// (n, n)
+  /// Adds a matrix (n, n) between nodes.
   void add_nodal(const Eigen::MatrixXd& element, Mat matrix) {
     places_.assign(order_.begin(), order_.end());
     insert(element, nodes_, matrix);
   }
 
  private:
-  /// Element matrices are symmetric: their columns are the rows that PETSc takes.
+  /// Inserts the columns of an element matrix as the rows that PETSc takes: it is symmetric.
   void insert(const Eigen::MatrixXd& element, const std::vector<PetscInt>& rows, Mat matrix) {
     values_ = element(places_, places_);
     const auto count = static_cast<PetscInt>(rows.size());
@@ -175,7 +175,7 @@ NodalMass zero_nodal_mass(const mesher::Mesh& mesh) {
                                      graph.offsets().data(), graph.columns().data(), zeros.data());
 }
 
-/// What the elements of this rank make, and how.
+/// Input and distribution of the assembly of this rank's elements.
 struct Task {
   const mesher::Mesh& mesh;
   const DofMap& dof_map;
@@ -189,8 +189,8 @@ struct Task {
   }
 };
 
-/// Calls visit(block of the mesh, nodes, coordinates) for this rank's elements; what fails names
-/// the element.
+/// Calls visit(block of the mesh, nodes, coordinates) for this rank's elements; messages of errors
+/// name the element.
 template <typename Visit>
 void each_element(const Task& task, const Visit& visit) {
   std::size_t element = 0;
@@ -255,7 +255,7 @@ void add_elements(const Task& task, bool is_constrained, SystemMatrices& system)
   });
 }
 
-/// Each dependent degree of freedom gets the mean diagonal entry as its only stiffness, and no
+/// Gives each dependent degree of freedom the mean diagonal entry as its only stiffness, and no
 /// mass.
 void stiffen_dependent(const DofMap& dof_map, const DofLayout& layout, Mat stiffness) {
   if (dof_map.dependent_count() == 0) return;
@@ -287,7 +287,7 @@ SystemMatrices assemble(const Task& task) {
     (is_constrained ? system.mass : system.nodal) =
         is_constrained ? sparsity.upper() : sparsity.nodal();
   }
-  // All ranks, or none of them, come to the collective calls behind.
+  // Either all ranks or none of them reach the collective calls that follow.
   task.layout.ranks().together([&] {
     add_elements(task, is_constrained, system);
     std::size_t element = task.rank_of_element.size() - points.size();

@@ -15,7 +15,7 @@ std::vector<std::int32_t> order_of_blocks(const std::vector<std::int32_t>& node_
     has_come[static_cast<std::size_t>(block)] = true;
     order.push_back(block);
   }
-  // Rigid couplings last: they couple all of a face.
+  // Blocks of rigid couplings come last: they couple all nodes of a face.
   for (std::size_t k = 0; !order.empty() && k < has_come.size(); ++k) {
     if (!has_come[k]) order.push_back(static_cast<std::int32_t>(k));
   }

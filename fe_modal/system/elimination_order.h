@@ -9,13 +9,13 @@
 
 namespace flexneck::fe_modal {
 
-/// An order of elimination of all nodes as one of the blocks of degrees of freedom; of tied nodes
-/// the first one counts. Empty: stays so.
+/// Converts an order of elimination of all nodes to one of the blocks of degrees of freedom; the
+/// first of tied nodes counts. An empty order stays empty.
 std::vector<std::int32_t> order_of_blocks(const std::vector<std::int32_t>& node_order,
                                           const DofMap& dof_map);
 
-/// The order in which the blocks of a body are eliminated: that of its nodes where one is known,
-/// else nested dissection by METIS. Of nodes, not of rows: a third as many.
+/// Order in which the blocks of a body are eliminated: that of its nodes if it is known, else
+/// nested dissection by METIS, applied to nodes instead of rows, a third as many.
 std::vector<std::int32_t> elimination_order_of(const mesher::Mesh& mesh, const DofMap& dof_map,
                                                const std::vector<std::int32_t>& node_order);
 

@@ -4,7 +4,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// A column for each field, of which `make` makes the values of all degrees of freedom.
+/// Makes a column for each field; `make` computes the values of all its degrees of freedom.
 template <typename Make>
 Eigen::MatrixXd columns(const DofLayout& layout, std::span<const Eigen::Matrix3Xd> fields,
                         const Make& make) {

@@ -11,11 +11,12 @@
 
 namespace flexneck::fe_modal {
 
-/// Between fields on all nodes, (3, n), which every rank has whole, and vectors of the free degrees
-/// of freedom, of which each has its rows.
+/// Maps fields on all nodes, (3, n), which are whole on every rank, to vectors of the free degrees
+/// of freedom, of which each rank has its rows, and back.
 class FieldMap {
  public:
-  /// Of a process alone. @param dof_map must outlive this
+  /// Map of a serial run.
+  /// @param dof_map must outlive this
   explicit FieldMap(const DofMap& dof_map) : FieldMap(dof_map, DofLayout(dof_map.free_count())) {}
   FieldMap(const DofMap& dof_map, DofLayout layout)
       : dof_map_(&dof_map), layout_(std::move(layout)) {}
@@ -26,7 +27,7 @@ class FieldMap {
   Eigen::Index node_count() const { return dof_map_->node_count(); }
   Eigen::Index own_dof_count() const { return layout_.own_dof_count(); }
 
-  /// The field of each column, (own dofs, k). Collective.
+  /// Field of each column, (own dofs, k). Collective.
   std::vector<Eigen::Matrix3Xd> expand(const Eigen::MatrixXd& vectors) const;
   /// Forces on the free degrees of freedom from forces on all nodes, a column each.
   Eigen::MatrixXd gather(std::span<const Eigen::Matrix3Xd> forces) const;

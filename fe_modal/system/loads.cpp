@@ -20,7 +20,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// A position names a node that is this near to it, relative to the size of the body.
+/// Largest distance of a node from the position that names it, relative to the size of the body.
 constexpr double kSamePlace = 1e-6;
 
 std::string text_of(const Eigen::Vector3d& v) { return "(" + rounded_texts({v.data(), 3}) + ")"; }

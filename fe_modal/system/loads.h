@@ -13,22 +13,22 @@
 
 namespace flexneck::fe_modal {
 
-/// Body forces rho g. Of supports that accelerate: less their acceleration.
+/// Body forces rho g; for accelerating supports g is the negative of their acceleration.
 struct GravityLoad {
   Eigen::Vector3d acceleration_m_s2;
 };
 
-/// Traction on a face set, linear in position, with the resultant that is given: the work-conjugate
-/// of the faces' mean motion (rigid_average.h), so that under a force at the centroid it is
-/// uniform.
+/// Traction on a face set, linear in position, with the given resultant: the work-conjugate of the
+/// faces' mean motion (rigid_average.h), so that under a force at the centroid it is uniform.
 struct FaceLoad {
   std::string set;
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
   Eigen::Vector3d moment_Nm = Eigen::Vector3d::Zero();
-  std::optional<Eigen::Vector3d> position_m = std::nullopt;  ///< of the force; none: the centroid
+  /// Point of the force; default: centroid.
+  std::optional<Eigen::Vector3d> position_m = std::nullopt;
 };
 
-/// Normal to the boundary of the body; positive pushes on it.
+/// Pressure normal to the boundary of the body; positive if it pushes on the body.
 struct PressureLoad {
   std::string set;  ///< a face set
   double pressure_Pa = 0;
@@ -41,8 +41,8 @@ struct NodeLoad {
   Eigen::Vector3d force_N;
 };
 
-/// Nodes whose supports move: u = translation + rotation x (x - position), in the directions that
-/// are fixed.
+/// Motion of supported nodes, in their fixed directions: u = translation + rotation x (x -
+/// position).
 struct SupportLoad {
   std::string set;  ///< a node set; its nodes are fixed
   Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();
@@ -50,18 +50,18 @@ struct SupportLoad {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
 };
 
-/// What acts in a linear static step.
+/// A load of a linear static step.
 struct Load {
   std::string name;
   std::variant<GravityLoad, FaceLoad, PressureLoad, NodeLoad, SupportLoad> kind;
 };
 
-/// "pull: face 'tip', force (0, 0, 100) N at (0, 0, 1) m"
+/// Text of a load: "pull: face 'tip', force (0, 0, 100) N at (0, 0, 1) m".
 std::string describe(const Load& load);
 
-/// Consistent nodal forces of all loads, (3, n) in N; none of supports that move, nor the weights
-/// of masses at reference points (point_forces.h).
-/// @param nodal_mass of all nodes
+/// Consistent nodal forces of all loads, (3, n) in N, without those of moving supports and the
+/// weights of masses at reference points (point_forces.h).
+/// @param nodal_mass mass between all nodes
 /// @throws InputError for an unknown set, a position without a node, or a pressure on faces that
 /// are not on the boundary, naming the load.
 Eigen::Matrix3Xd nodal_forces(const mesher::Mesh& mesh, const NodalMass& nodal_mass,

@@ -10,17 +10,17 @@
 namespace flexneck::fe_modal {
 namespace {
 
-constexpr double kProgram = 0.09e9;         ///< libraries, before anything is read
+constexpr double kProgram = 0.09e9;         ///< libraries, before any input is read
 constexpr double kAssembledPerDof = 3.8e3;  ///< mesh, graph, stiffness, mass, ten modes
-/// Of a neck with so many degrees of freedom, in an order by nested dissection.
+/// Reference: a neck with so many degrees of freedom, in an order by nested dissection.
 constexpr double kReferenceDofs = 191388;
 constexpr double kReferenceEntries = 183.8e6;
 constexpr double kGrowth = 1.42;
 constexpr double kBytesPerEntry = 8;
-/// Copies of a mode: two Krylov spaces, of which one is twice as wide, shapes and what is written.
+/// Copies of a mode: two Krylov spaces, of which one is twice as wide, shapes and output.
 constexpr double kBytesPerDof = 9 * 8;
-constexpr int kIncluded = 10;  ///< modes that the figures above have
-/// Of pairs of modes: projected matrices and invariants.
+constexpr int kIncluded = 10;  ///< number of modes in the figures above
+/// Memory for each pair of modes: projected matrices and invariants.
 constexpr double kBytesPerPair = 300;
 
 std::string dofs_text(double dofs) {

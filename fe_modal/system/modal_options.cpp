@@ -13,7 +13,7 @@ std::string name_of(const InterfaceDefinition& interface) {
   return "rigid interface '" + interface.name + "'";
 }
 
-/// An interface that is to move, on nodes that do not.
+/// Refuses rigid interfaces whose nodes are fixed.
 void require_motion(const mesher::Connections& connections, const ModalOptions& options,
                     const DofMap& dof_map) {
   for (const InterfaceDefinition& interface : options.interfaces) {

@@ -31,9 +31,9 @@ void check_parts(const mesher::Mesh& mesh, const ModalOptions& options) {
   }
 }
 
-constexpr Eigen::Index kAll = 6;  ///< rigid motions
+constexpr Eigen::Index kAll = 6;  ///< number of rigid motions of a free body
 
-/// "a free body", or "a body that slides along x"
+/// Text of a body with rigid motions: "a free body", or "a body that slides along x".
 std::string body_with(const RigidMotions& rigid) {
   return rigid.count() == kAll ? "a free body" : "a body that " + rigid.text();
 }
@@ -120,8 +120,9 @@ void check_slit_motions(const mesher::Mesh& mesh, const ModalOptions& options) {
     throw InputError("slits that open and close: the mesh has no open slit");
 }
 
-/// Forces in couplings, those of rigid interfaces too, and in springs turn with the body and
-/// stiffen or soften it, which constraints and springs of small motions leave out.
+/// Refuses connections whose forces rotate with the body: forces in couplings, including those of
+/// rigid interfaces, and in springs would stiffen or soften it, which constraints and springs for
+/// small motions leave out.
 void refuse_turning_forces(const mesher::Mesh& mesh, const ModalOptions& options,
                            const std::string& what) {
   const mesher::Connections all = connections_of(mesh, options);
@@ -162,7 +163,7 @@ void check_resolved(const mesher::Mesh& mesh, const ModalOptions& options, const
                     const RigidMotions& rigid) {
   check_parts(mesh, options);
   const Eigen::Index dofs = dof_map.dof_count() - dof_map.dependent_count();
-  // Static shapes alone make a basis too.
+  // Static shapes alone are a basis too.
   const int least = options.basis == BasisKind::craig_bampton ? 0 : 1;
   if (options.mode_count < least || options.mode_count > dofs) {
     throw InputError("the number of modes must lie between " + std::to_string(least) + " and the " +

@@ -8,13 +8,15 @@
 
 namespace flexneck::fe_modal {
 
+/// Checks the options for a mesh.
 /// @throws InputError for the first option that does not fit the mesh or the other options.
 void check_options(const mesher::Mesh& mesh, const ModalOptions& options);
-/// The same of a mesh that mesher::check() accepts.
+/// Checks the options of a model whose mesh mesher::check() accepts.
 void check_options(const Model& model);
 
-/// @param who needs them: "a static step"
-/// @throws InputError with the rigid motions that are left, if there are any.
+/// Refuses a body with rigid motions.
+/// @param who needs the supports: "a static step"
+/// @throws InputError with the remaining rigid motions, if there are any.
 void require_supports(const RigidMotions& rigid, const std::string& who);
 
 }  // namespace flexneck::fe_modal

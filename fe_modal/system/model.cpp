@@ -17,7 +17,7 @@ namespace flexneck::fe_modal {
 namespace {
 
 /// Calls visit(number of the element, its nodes) for each element, the mesh's blocks in their
-/// order; behind them for springs and point masses, with their sites.
+/// order; then for springs and point masses, with their sites.
 void for_each_element(
     const mesher::Mesh& mesh,
     const std::function<void(std::size_t, std::span<const std::int32_t>)>& visit) {
@@ -57,7 +57,8 @@ FieldMap Model::numbered() {
   return {dof_map_, DofLayout(dof_map_.free_count(), ranks())};
 }
 
-/// A block is of the lowest rank that has one of its elements, and of the first if none has.
+/// Distributes the blocks: a block belongs to the lowest rank that has one of its elements, and to
+/// the first rank if none has.
 DofLayout Model::shared_out() {
   const int count = ranks().count();
   rank_of_element_ = options_.element_ranks.empty()
@@ -67,7 +68,8 @@ DofLayout Model::shared_out() {
   const auto blocks = static_cast<std::size_t>(dof_map_.free_count());
   std::vector<std::int32_t> owners(blocks, count);
   for_each_element(mesh_, [&](std::size_t element, auto sites) {
-    if (element >= rank_of_element_.size()) rank_of_element_.push_back(0);  // springs and masses
+    // Springs and masses go to the first rank.
+    if (element >= rank_of_element_.size()) rank_of_element_.push_back(0);
     for (const std::int32_t site : sites) {
       dof_map_.for_each_number(site, [&](std::int32_t block) {
         std::int32_t& owner = owners[static_cast<std::size_t>(block)];

@@ -12,10 +12,10 @@
 
 namespace flexneck::fe_modal {
 
-/// A mesh with its options and all that they resolve to, once for whatever is computed of it:
-/// connections, degrees of freedom, the rigid motions that are left, and the share of each rank.
-/// Blocks of degrees of freedom are numbered as the rows of matrices: alone in the order of their
-/// elimination, on ranks those of the first rank first.
+/// A mesh with its options and the data that they determine, computed once for all analyses of it:
+/// connections, degrees of freedom, the remaining rigid motions, and the share of each rank. Blocks
+/// of degrees of freedom are numbered as the rows of matrices: in a serial run in the order of
+/// their elimination, otherwise those of the first rank first.
 class Model {
  public:
   /// @param mesh must outlive this; the same on all ranks
@@ -31,12 +31,14 @@ class Model {
   const RigidMotions& rigid() const { return rigid_; }
   const FieldMap& fields() const { return fields_; }
   const Ranks& ranks() const { return options_.ranks; }
-  /// Of elements, springs and masses, in the order of for_each_element(); empty alone.
+  /// Rank of each element, spring and mass, in the order of for_each_element(); empty in a serial
+  /// run.
   const std::vector<std::int32_t>& rank_of_element() const { return rank_of_element_; }
-  /// "fixed: bolts, x of left; slides along y", or "free".
+  /// Text of the supports: "fixed: bolts, x of left; slides along y", or "free".
   std::string boundary() const { return boundary_of(mesh_, options_, rigid_); }
 
-  /// From now on matrices have the geometric stiffness of displacements on all nodes, (3, n).
+  /// Adds the geometric stiffness of displacements of all nodes, (3, n), to matrices assembled
+  /// after this call.
   void set_prestress(const Eigen::Matrix3Xd& displacements_m) {
     options_.prestress_m = displacements_m;
   }

@@ -31,7 +31,8 @@ void for_each_weight(const mesher::Mesh& mesh, const std::vector<Load>& loads,
   }
 }
 
-/// The nodes and the points, behind the nodes, that each connection joins.
+/// Sites that each connection joins: nodes, and reference points, which are numbered behind the
+/// nodes.
 std::vector<std::set<std::int32_t>> joined(const mesher::Connections& connections,
                                            std::int32_t node_count) {
   std::vector<std::set<std::int32_t>> groups;
@@ -51,7 +52,8 @@ std::vector<std::set<std::int32_t>> joined(const mesher::Connections& connection
   return groups;
 }
 
-/// The nodes nearest to a point are joined to it, or to points that are, and so on.
+/// Nodes nearest to a point: those joined to it, or else to points that are joined to it, and so
+/// on.
 std::vector<std::int32_t> nodes_near(std::int32_t point, std::int32_t node_count,
                                      const std::vector<std::set<std::int32_t>>& groups) {
   std::set<std::int32_t> reached = {point};
@@ -93,7 +95,8 @@ Eigen::Matrix3Xd weights_on_nodes(const mesher::Mesh& mesh, const mesher::Connec
     const Eigen::Vector3d center_m =
         Eigen::Vector3d(connections.points[static_cast<std::size_t>(point)].position_m.data()) +
         Eigen::Vector3d(mass.center_m.data());
-    // Motions of the nodes as one body about the centre of mass, where the weight has no moment.
+    // Columns are motions of the nodes as one body about the centre of mass, where the weight has
+    // no moment.
     Eigen::MatrixXd motions(3 * static_cast<Eigen::Index>(nodes.size()), 6);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       motions.middleRows<3>(3 * static_cast<Eigen::Index>(k)) =

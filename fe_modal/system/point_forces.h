@@ -12,16 +12,17 @@
 namespace flexneck::fe_modal {
 
 /// Weights of the masses at reference points under the loads' gravity, on the free degrees of
-/// freedom (dof_count()); those of masses at nodes are nodal forces (loads.h).
+/// freedom (dof_count()); weights of masses at nodes are nodal forces (loads.h).
 Eigen::VectorXd weights_at_points(const mesher::Mesh& mesh, const DofMap& dof_map,
                                   const std::vector<Load>& loads);
 
-/// The same weights on nodes, (3, n) in N: the least forces with their resultants on the nodes that
-/// couplings, equations and springs join to each point, through other points where it has none.
+/// The same weights transferred to nodes, (3, n) in N: the smallest forces with their resultants on
+/// the nodes that couplings, equations and springs join to each point, or through other points if
+/// it has none.
 Eigen::Matrix3Xd weights_on_nodes(const mesher::Mesh& mesh, const mesher::Connections& connections,
                                   const std::vector<Load>& loads);
 
-/// Forces that the springs resist free values with, K_springs q: (dof_count()).
+/// Spring forces K_springs q under free values q, (dof_count()).
 Eigen::VectorXd spring_forces(const mesher::Mesh& mesh, const DofMap& dof_map,
                               const Eigen::VectorXd& free_values);
 

@@ -16,7 +16,7 @@ namespace flexneck::fe_modal {
 namespace {
 
 /// Calls visit(nodes, shape_values, position, measure) for each quadrature point; measure is the
-/// volume or area that the point stands for.
+/// point's volume or area.
 template <typename Visitor>
 void for_each_point(const mesher::Mesh& mesh, mesher::ElementKind kind,
                     std::span<const std::int32_t> connectivity, const Visitor& visit) {

@@ -6,7 +6,7 @@
 
 namespace flexneck::fe_modal {
 
-/// The package whose Cholesky factor of K is solved with.
+/// Package that computes and applies the Cholesky factor of K.
 enum class Solver {
   automatic,  ///< CHOLMOD in one process, MUMPS on several
   cholmod,

@@ -28,7 +28,7 @@ void for_tied_pairs(const mesher::Mesh& mesh, const Couple& couple) {
 
 using Directions = std::vector<std::array<bool, 3>>;
 
-/// Those that supports along x, y and z fix.
+/// Directions that supports along x, y and z fix.
 Directions supported(const mesher::Mesh& mesh, const ModalOptions& options,
                      const mesher::Connections& connections) {
   Directions fixed(mesh.nodes.size());
@@ -76,7 +76,7 @@ void spread_over_ties(const mesher::Mesh& mesh, Directions& directions) {
   });
 }
 
-/// Forces in what acts on such a node would follow its motion.
+/// Refuses connections on moving support nodes: forces in them would follow the nodes' motion.
 void refuse_connected(const mesher::Connections& connections, const Directions& moved) {
   for_connected_nodes(connections, moved.size(), [&](std::int32_t node, const std::string& name) {
     if (moved[static_cast<std::size_t>(node)] == std::array<bool, 3>{}) return;

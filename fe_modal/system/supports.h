@@ -12,17 +12,18 @@
 
 namespace flexneck::fe_modal {
 
-/// For each node the directions x, y, z in which supports along these or connections that they may
-/// pass forces to act on it, (n); of two nodes that a tied slit couples on both alike. Connections
-/// are couplings, rigid interfaces, equations, springs and supports in axes of their own.
+/// For each node, (n), the directions x, y, z in which supports along these may act on it, or
+/// connections may pass on forces; both nodes of a pair that a tied slit couples have the same.
+/// Connections are couplings, rigid interfaces, equations, springs and supports in axes of their
+/// own.
 std::vector<std::array<bool, 3>> reacting_directions_of(const mesher::Mesh& mesh,
                                                         const ModalOptions& options);
 
-/// Displacements of the supports, (3, n) in m: those of the SupportLoads in the directions that are
-/// fixed, zero elsewhere.
+/// Displacements of the supports, (3, n) in m: those of the SupportLoads in the fixed directions,
+/// zero elsewhere.
 /// @throws InputError if a node of such a load is not fixed, if the load moves none of its nodes in
-/// a direction that is fixed, translates one in a direction that is free, if two loads move a node
-/// differently, or if one moves a node that a connection acts on.
+/// a fixed direction, translates one in a free direction, if two loads move a node differently, or
+/// if one moves a node on which a connection acts.
 Eigen::Matrix3Xd support_displacements(const mesher::Mesh& mesh, const ModalOptions& options,
                                        const std::vector<Load>& loads);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Times chains of bodies. README.md says what is compared.
+// Times chains of bodies. README.md describes the comparison.
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -24,7 +24,7 @@ using flexneck::benchmarks::rigid_chain;
 using flexneck::benchmarks::rod;
 using flexneck::benchmarks::Timing;
 
-/// Equations of motion and how they are integrated.
+/// Formulation of the equations of motion and method of integration.
 struct Method {
   const char* name;
   Formulation formulation;
@@ -37,7 +37,7 @@ constexpr Method kRecursiveAlpha{"recursive, alpha", Formulation::recursive,
 constexpr Method kDescriptorAlpha{"descriptor, alpha", Formulation::descriptor,
                                   Integrator::generalised_alpha};
 
-/// Links of 0.1 m on pins with axes in turn along x and y, hanging straight.
+/// Chain of links of 0.1 m on revolute joints with axes along x and y in turn, hanging straight.
 Model hanging_chain(int links) {
   ModelBuilder build;
   constexpr double kLength_m = 0.1;
@@ -81,9 +81,9 @@ void report_growth() {
   }
 }
 
-/// ground - pin - arm - fixed - flexible bar - fixed - head; the ground is jerked for 0.05 s. The
-/// bar is Euler and Bernoulli's with its bending and torsion modes below 2 kHz; the half sine is a
-/// table of 20 pieces.
+/// Chain ground - pin - arm - fixed - flexible bar - fixed - head; the ground is jerked for 0.05 s.
+/// The bar is Euler and Bernoulli's with its bending and torsion modes below 2 kHz; the half sine
+/// is a table of 20 segments.
 Model flexible_chain() {
   ModelBuilder build;
   constexpr double kArm_m = 1.5;
@@ -103,7 +103,7 @@ Model flexible_chain() {
   }
   const PrescribedBody ground{Vector3d::UnitX(), 0,
                               TimeTable(times_s, values, TimeTable::Outside::zero)};
-  // The beam's z is along the bar, away from the arm.
+  // The beam's z axis is along the bar, away from the arm.
   const Quaterniond down(0, 1, 0, 0);
   const double moment = 30 * kArm_m * kArm_m / 12;
   const auto base = build.body("ground", ground);
@@ -121,7 +121,7 @@ Model flexible_chain() {
   return build.model;
 }
 
-/// Runs of 1 s: their time, and the error of the head's centre at the end against a run at 1e-12.
+/// Times runs of 1 s and finds the error of the head's centre at the end against a run at 1e-12.
 void report_run(const char* name, const Model& model, std::initializer_list<Method> methods,
                 std::initializer_list<double> tolerances, int runs) {
   const OutputOptions output{.end_time_s = 1, .interval_s = 0.01};

@@ -13,8 +13,8 @@ inline multibody::RigidBody rod(double mass_kg, double length_m,
   return {mass_kg, {0, 0, -length_m / 2}, moments_kg_m2.asDiagonal()};
 }
 
-/// ground - pin - arm - ball - neck - fixed - head, released at 60 degrees, of the sizes with which
-/// other programs were timed.
+/// Chain ground - pin - arm - ball - neck - fixed - head, released at 60 degrees, of the sizes with
+/// which other programs were timed.
 inline multibody::Model rigid_chain() {
   testing::ModelBuilder build;
   constexpr double kArm_m = 1.657;

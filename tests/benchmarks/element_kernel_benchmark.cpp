@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Time and arithmetic of the element matrices. README.md says what is compared.
+// Time and arithmetic of the element matrices. README.md describes the comparison.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -25,7 +25,7 @@ using namespace flexneck;
 using namespace flexneck::fe_modal;
 using mesher::ElementKind;
 
-/// GFLOP/s of a b^T with a and b (rows, depth).
+/// Speed of a b^T with a and b (rows, depth), GFLOP/s.
 double product_speed(Eigen::Index rows, Eigen::Index depth, int runs) {
   const Eigen::MatrixXd a = Eigen::MatrixXd::Random(rows, depth);
   Eigen::MatrixXd result(rows, rows);
@@ -37,7 +37,7 @@ double product_speed(Eigen::Index rows, Eigen::Index depth, int runs) {
   return kRepeats * 2 * n * n * static_cast<double>(depth) / timing.fastest_ms / 1e6;
 }
 
-/// Operations of the matrix products alone: int N_i,a N_j,b, the mass and the pressures.
+/// Number of operations of the matrix products alone: int N_i,a N_j,b, the mass and the pressures.
 double product_operations(const ElementScheme& scheme) {
   const auto n = static_cast<double>(mesher::nodes_per_element(scheme.kind));
   const auto points = [&](int strength) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// First frequencies of a bonded rubber pad with every element. README.md says what is compared.
+// First frequencies of a bonded rubber pad with every element. README.md describes the comparison.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -25,7 +25,7 @@ using namespace flexneck;
 using namespace flexneck::fe_modal;
 using mesher::ElementKind;
 
-/// 80 x 80 mm, fixed below: 20 mm of rubber and on it 10 mm of steel.
+/// Pad of 80 x 80 mm, fixed below: 20 mm of rubber and on it 10 mm of steel.
 mesher::Mesh pad(int refinement, double poissons_ratio) {
   testing::BlockMesh block =
       testing::box({4 * refinement, 4 * refinement, 1}, {0.08, 0.08, 0.03}, {});

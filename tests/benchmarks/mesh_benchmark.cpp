@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Time and memory of meshing the neck, sharing it out and ordering it, as the mesh grows. Each size
-// runs in a process of its own, so that the memory is its own peak.
+// Time and memory of meshing, partitioning and ordering the neck, as the mesh grows. Each size runs
+// in a process of its own, so that the memory is its own peak.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>

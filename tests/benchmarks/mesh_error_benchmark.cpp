@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Estimated over true error of frequencies. README.md says what is compared.
+// Ratio of estimated to true error of frequencies. README.md describes the comparison.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -33,24 +33,24 @@ using testing::BlockMesh;
 constexpr double kLeastRatio = 0.7;
 constexpr double kLargestRatio = 5;
 
-/// A body, meshed with n x n x n hexahedra of 27 nodes in place of each of its own.
+/// Mesh generator of a body, with n x n x n hexahedra of 27 nodes in place of each of its own.
 using Generator = std::function<mesher::Mesh(int n)>;
 
-/// What frequencies are compared with.
+/// Reference solution for frequencies.
 struct Truth {
   Eigen::VectorXd frequencies_Hz;
   std::vector<Eigen::Matrix3Xd> shapes;
-  std::map<std::array<long, 3>, Eigen::Index> nodes;  ///< by place
-  Eigen::VectorXd uncertainty;                        ///< of the frequencies, relative
+  std::map<std::array<long, 3>, Eigen::Index> nodes;  ///< indices of the nodes by position
+  Eigen::VectorXd uncertainty;                        ///< relative uncertainty of the frequencies
 };
 
 /// A row of the table.
 struct Body {
   std::string title;
-  bool is_judged = false;  ///< held out: no constant was fitted to it
+  bool is_judged = false;  ///< true for a body that no constant was fitted to
   std::function<mesher::Mesh()> mesh;
   ModalOptions options;
-  std::string truth;  ///< bodies with the same have it in common
+  std::string truth;  ///< name of the reference; bodies with the same name share it
   std::function<Truth()> find_truth;
 };
 
@@ -71,7 +71,8 @@ void set_nodes(Truth& truth, const mesher::Mesh& mesh) {
 }
 
 Truth truth_of(const mesher::Mesh& mesh, ModalOptions options) {
-  constexpr int kMore = 30;  // modes that coarse meshes have in another order
+  // Number of modes beyond the requested ones, as coarse meshes have another order.
+  constexpr int kMore = 30;
   options.mode_count += kMore;
   options.formulation = {};
   ModalBody body = analyse_modes(mesh, options, {});
@@ -88,8 +89,8 @@ struct TrueFrequency {
   double uncertainty = 0;
 };
 
-/// The true frequency of a shape: of the mode, or the modes 1 % beside it, that it resembles most;
-/// zero if it resembles none.
+/// True frequency of a shape: that of the most similar mode, or group of modes within 1 %; zero if
+/// none is similar.
 TrueFrequency find_true(const Truth& truth, const std::vector<std::array<long, 3>>& places,
                         const Eigen::Matrix3Xd& shape) {
   constexpr double kOneShape = 1e-2;
@@ -134,7 +135,8 @@ ModalOptions options_of(const std::string& fixed, int count,
   return options;
 }
 
-/// Found with n x n x n elements in place of one; what half as many change tells how well.
+/// Reference with n x n x n elements in place of one; the change from half as many shows its
+/// uncertainty.
 Truth finer_truth(const Generator& body, int n, const ModalOptions& options) {
   Truth truth = truth_of(body(n), options);
   ModalOptions plain = options;
@@ -145,14 +147,15 @@ Truth finer_truth(const Generator& body, int n, const ModalOptions& options) {
   for (Eigen::Index k = 0; k < options.mode_count; ++k) {
     if (coarser.frequencies_Hz[k] == 0) continue;
     const double found = find_true(truth, places, coarser.shapes[static_cast<std::size_t>(k)]).Hz;
-    // As much again at the order one; most have two.
+    // The remaining error is as large as the change at order one, and a third of it at order two,
+    // the most common one.
     truth.uncertainty[k] = std::abs(coarser.frequencies_Hz[k] / found - 1) / 2;
   }
   return truth;
 }
 
-/// A slender beam of square section, fixed at z = 0, by Euler and Bernoulli, with its stretch and
-/// twist.
+/// Reference for a slender beam of square section, fixed at z = 0, by Euler and Bernoulli, with its
+/// longitudinal and torsional modes.
 Truth slender_truth(const mesher::Mesh& mesh, double side_m, double length_m,
                     const mesher::Material& material) {
   constexpr double kTwist = 0.1406;  // torsion constant of a square over its side to the fourth
@@ -170,7 +173,7 @@ Truth slender_truth(const mesher::Mesh& mesh, double side_m, double length_m,
           displacement(Eigen::Vector3d(mesh.nodes[k].data()), mesh.nodes[k][2] / length_m);
   };
   for (int n = 1; n <= 10; ++n) {
-    double root = (n - 0.5) * pi;  // of cos r cosh r = -1
+    double root = (n - 0.5) * pi;  // root of cos r cosh r = -1
     for (int step = 0; step < 20; ++step)
       root -= (std::cos(root) + 1 / std::cosh(root)) /
               (-std::sin(root) - std::tanh(root) / std::cosh(root));
@@ -194,7 +197,7 @@ Truth slender_truth(const mesher::Mesh& mesh, double side_m, double length_m,
   truth.frequencies_Hz = Eigen::Map<Eigen::VectorXd>(found.data(), std::ssize(found));
   set_nodes(truth, mesh);
   truth.uncertainty.setConstant(truth.frequencies_Hz.size(),
-                                side_m / length_m / 4);  // the held end is fixed sideways, too
+                                side_m / length_m / 4);  // the clamped end is fixed sideways, too
   return truth;
 }
 
@@ -204,7 +207,7 @@ Generator beam(double aspect) {
   };
 }
 
-/// Held along one side.
+/// A plate fixed along one side.
 Generator plate(double aspect) {
   return [=](int n) {
     return testing::box({n, 4 * n, 4 * n}, {0.01, 0.04 * aspect, 0.04 * aspect}, kSteel).make();
@@ -212,7 +215,7 @@ Generator plate(double aspect) {
 }
 
 Truth plate_truth(double aspect) {
-  // Thicker ones bend likewise, and rounding spares them.
+  // Thicker plates bend in the same way, and are less affected by rounding.
   const double solved = std::min(aspect, 100.0);
   Truth truth = finer_truth(plate(solved), 4, options_of("bottom", 6));
   truth.frequencies_Hz *= (solved / aspect) * (solved / aspect);
@@ -234,7 +237,7 @@ mesher::Mesh tube(int n) {
   return testing::tube({n, 8 * n, 3 * n}, 0.04, 0.06, 0.3, kSteel).make();
 }
 
-/// Steel, rubber and steel, held at one end of all three.
+/// Layers of steel, rubber and steel, all three fixed at one end.
 mesher::Mesh sandwich(int n) {
   BlockMesh block = testing::box({6 * n, 2 * n, 1}, {1, 1, 1}, kSteel);
   mesher::Material upper = kSteel;
@@ -251,7 +254,7 @@ mesher::Mesh sandwich(int n) {
   return mesh;
 }
 
-/// A quarter of a thin-walled cylinder, held along its lower rim.
+/// A quarter of a thin-walled cylinder, fixed along its lower rim.
 mesher::Mesh shell(int n) {
   BlockMesh block = testing::box({n, 6 * n, 4 * n}, {1, 1, 1}, kSteel);
   block.position = [](const Eigen::Vector3d& p) -> Eigen::Vector3d {
@@ -262,7 +265,8 @@ mesher::Mesh shell(int n) {
   return block.make();
 }
 
-/// A lump of rubber with no straight edge, bonded at its bottom, with its elements bent alike.
+/// A lump of rubber with no straight edge, bonded at its bottom; its elements have the same
+/// curvature.
 mesher::Mesh lump(int n) {
   BlockMesh block = testing::box({2 * n, 2 * n, 2 * n}, {1, 1, 1}, kRubber);
   block.position = [](const Eigen::Vector3d& p) -> Eigen::Vector3d {
@@ -280,13 +284,13 @@ mesher::Mesh angle(int n) {
   });
 }
 
-/// A bar of steel, cut half through.
+/// A bar of steel with a crack through half of its section.
 mesher::Mesh cracked(int n) {
   const mesher::Mesh whole = testing::box({2 * n, 2 * n, 6 * n}, {0.04, 0.04, 0.12}, kSteel).make();
   mesher::Mesh cut = testing::with_slit(whole, 0.04, false, [](const Eigen::Vector3d& x) {
     return std::abs(x[2] - 0.04) < 1e-9 && x[0] > 1e-9;
   });
-  cut.slits.clear();  // its nodes are double, which suffices
+  cut.slits.clear();  // double nodes alone make the crack
   return cut;
 }
 
@@ -299,7 +303,7 @@ mesher::Mesh neck(const std::string& set, int layers) {
   return testing::neck_mesh(set, divisions);
 }
 
-/// A clamped bar of tetrahedra, as a user brings it.
+/// A clamped bar of tetrahedra, as imported from a user's file.
 mesher::Mesh imported_bar() {
   mesher::ImportOptions options;
   options.file = FLEXNECK_SOURCE_DIR "/geometry/examples/cantilever.msh";
@@ -309,7 +313,7 @@ mesher::Mesh imported_bar() {
   return mesher::import_mesh(options, {});
 }
 
-/// Every element cut in eight so many times.
+/// Reference from a mesh whose elements were cut in eight `cuts` times.
 Truth refined_truth(mesher::Mesh mesh, int cuts, const ModalOptions& options) {
   for (int k = 0; k < cuts; ++k) mesh = mesher::refine(mesh).mesh;
   return truth_of(mesh, options);
@@ -325,7 +329,7 @@ class Bodies {
                     truth, find_truth});
   }
 
-  /// One of each kind and aspect ratio: the aspect ratios 10 and 200 are held out.
+  /// Adds a slender body of each kind and aspect ratio: the aspect ratios 10 and 200 are held out.
   void add_slender() {
     for (const double aspect : {1.0, 10.0, 50.0, 200.0}) {
       const std::string ratio = std::to_string(static_cast<int>(aspect));
@@ -360,7 +364,7 @@ class Bodies {
         }
   }
 
-  /// Some bodies in the kinds that are taken most.
+  /// Adds other bodies in the most common kinds of elements.
   void add_others() {
     struct Other {
       std::string name;
@@ -391,8 +395,8 @@ class Bodies {
     }
     const ModalOptions bolts = options_of("bolts", 10);
     for (const std::string set : {"A", "C"}) {
-      // Cut in eight the default neck has 191 000 degrees of freedom, cut again it fits nowhere:
-      // what is compared with it is coarser.
+      // Cut in eight the default neck has 191 000 degrees of freedom, cut again it exceeds any
+      // memory: the mesh compared with the reference is therefore coarser.
       const auto truth = [=] { return refined_truth(neck(set, 3), 1, bolts); };
       const bool is_judged = set == "C";
       all_.push_back({"neck " + set + " coarse hex27", is_judged, [=] { return neck(set, 2); },
@@ -440,7 +444,7 @@ void print_body(const Body& body, const Truth& truth, bool detailed, Tally& tall
                   found.frequencies_Hz[k], estimate.refined_Hz, true_Hz, 100 * error,
                   100 * estimate.error, ratio, estimate.mac);
     lines += line.data();
-    // Smaller errors are not told from those of what they are compared with.
+    // Smaller errors cannot be distinguished from those of the reference.
     const bool is_known = true_Hz > 0 && error > 3 * uncertainty;
     std::snprintf(line.data(), line.size(),
                   true_Hz == 0 ? " -"
@@ -482,7 +486,7 @@ int main(int argc, char** argv) {
       if (!truths.contains(body.truth)) truths[body.truth] = body.find_truth();
       try {
         print_body(body, truths.at(body.truth), effort > 1, tallies[body.is_judged ? 1 : 0]);
-      } catch (const std::exception& error) {  // such as of elements with too few points
+      } catch (const std::exception& error) {  // e.g. elements with too few points
         std::printf("%s: %s\n", body.title.c_str(), error.what());
       }
     }

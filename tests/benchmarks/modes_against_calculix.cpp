@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The neck's ten modes by `flexneck modes` and by CalculiX on the same meshes. README.md says what
-// is compared.
+// Times the neck's ten modes by `flexneck modes` and by CalculiX on the same meshes. README.md
+// describes the comparison.
 #include <array>
 #include <cstdio>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Times the first 0.25 s of a pendulum run. README.md says what is compared.
+// Times the first 0.25 s of a pendulum run. README.md describes the comparison.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -24,7 +24,7 @@ constexpr int kDefaultRuns = 51;
 const SolverOptions kSolver{.relative_tolerance = 1e-6, .absolute_tolerance = 1e-9};
 const OutputOptions kOutput{.end_time_s = 0.25, .interval_s = 1e-3};
 
-/// An arm that comes at 7.01 m/s and is stopped by a pulse like a certification test's.
+/// An arm that arrives at 7.01 m/s and is stopped by a pulse like that of a certification test.
 PrescribedBody make_arm() {
   constexpr double g = 9.80665;
   const TimeTable pulse({0, 0.004, 0.010, 0.020, 0.030, 0.0365, 0.042},
@@ -39,7 +39,7 @@ Model flexible_neck() {
   return build.model;
 }
 
-/// The same neck as one stiff piece that swings on a ball joint.
+/// The same neck as one rigid body on a spherical joint.
 Model rigid_neck() {
   Model model = flexible_neck();
   const flexneck::fe_modal::ModalBody beam = std::get<DeformableBody>(model.bodies[1].kind).modes;
@@ -69,7 +69,7 @@ void report(const char* name, const Model& model, Formulation formulation, int r
               steps.evaluations);
 }
 
-/// 1000 runs at once, pulses 0.1 % apart.
+/// Times 1000 simultaneous runs with pulses 0.1 % apart.
 void report_batch(std::size_t count) {
   std::vector<Model> models(count, flexible_neck());
   for (std::size_t k = 0; k < count; ++k)

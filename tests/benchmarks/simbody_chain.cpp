@@ -19,19 +19,19 @@ constexpr double kNeck_m = 0.1438;
 const Vec3 kHeadCenter(0.01, 0, -0.1);
 
 SimTK::Body::Rigid body(double mass_kg, const Vec3& center, const Vec3& moments_kg_m2) {
-  // Simbody wants the inertia about the body's origin.
+  // Simbody expects the inertia about the body's origin.
   const Inertia about_origin = Inertia(moments_kg_m2).shiftFromMassCenter(-center, mass_kg);
   return SimTK::Body::Rigid(MassProperties(mass_kg, center, about_origin));
 }
 
-/// ground - pin - arm - ball - neck - fixed - head, released at 60 degrees.
+/// Chain ground - pin - arm - ball - neck - fixed - head, released at 60 degrees.
 struct Chain {
   SimTK::MultibodySystem system;
   SimTK::SimbodyMatterSubsystem matter{system};
   SimTK::GeneralForceSubsystem forces{system};
   SimTK::Force::Gravity gravity{forces, matter, Vec3(0, 0.5, -9.81)};
   double moment = 29.57 * kArm_m * kArm_m / 12;
-  // A pin turns about z of its frames: bring that to y.
+  // Simbody's pin rotates about z of its frames, which this brings to y.
   Transform about_y{SimTK::Rotation(-SimTK::Pi / 2, SimTK::XAxis)};
   SimTK::MobilizedBody::Pin arm{matter.Ground(), about_y,
                                 body(29.57, Vec3(0, 0, -kArm_m / 2), Vec3(moment, moment, 0.1)),
@@ -43,7 +43,7 @@ struct Chain {
                                   body(4.5, kHeadCenter, Vec3(0.016, 0.024, 0.022)), Transform()};
 };
 
-/// The head's centre after 1 s.
+/// Position of the head's centre after 1 s.
 Vec3 run(Chain& chain, const SimTK::State& start, double accuracy) {
   SimTK::RungeKuttaMersonIntegrator integrator(chain.system);
   integrator.setAccuracy(accuracy);

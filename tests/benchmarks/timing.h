@@ -12,7 +12,7 @@ struct Timing {
   double fastest_ms = 0;
 };
 
-/// CPU time of the calling thread: what else runs on the machine counts little.
+/// CPU time of the calling thread, on which other load of the machine has little effect.
 inline double cpu_time_ms() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

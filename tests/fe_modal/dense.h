@@ -9,8 +9,8 @@
 
 namespace flexneck::fe_modal {
 
-/// All entries of a matrix of PETSc's, column by column through its product, so that it serves
-/// shell matrices too.
+/// Dense copy of a PETSc matrix, column by column through its product, which works for shell
+/// matrices too.
 inline Eigen::MatrixXd dense(Mat matrix) {
   PetscInt rows = 0;
   PetscInt columns = 0;

@@ -10,10 +10,11 @@
 #include "tests/fe_modal/dense.h"
 #include "tests/support/dense_solvers.h"
 
-/// Constraints, masses and springs of a mesh as dense matrices, written down anew.
+/// Constraints, masses and springs of a mesh as dense matrices, implemented independently.
 namespace flexneck::fe_modal {
 
-/// Degrees of freedom 3 site + a, as mesher/mesh/connections.h counts sites.
+/// Dense model with degrees of freedom 3 site + a, sites being counted as in
+/// mesher/mesh/connections.h.
 struct DenseConstraints {
   Eigen::MatrixXd stiffness, mass;
   std::vector<Eigen::VectorXd> equations;  ///< rows: sum of entries times degrees of freedom = 0
@@ -53,7 +54,8 @@ inline Eigen::VectorXd row_of(const std::vector<mesher::Term>& terms, Eigen::Ind
   return row;
 }
 
-/// Such as the rotation of a point that only springs hold.
+/// Fixes motions without stiffness and mass, such as the rotation of a point that only springs
+/// hold.
 inline void fix_what_nothing_feels(DenseConstraints& model) {
   const Eigen::Index size = model.stiffness.rows();
   for (Eigen::Index k = 0; k < size; ++k) {
@@ -63,7 +65,7 @@ inline void fix_what_nothing_feels(DenseConstraints& model) {
   }
 }
 
-/// The whole structure, and its matrices free of constraints.
+/// Dense model of the whole structure, its matrices without the constraints.
 inline DenseConstraints dense_model(const mesher::Mesh& mesh) {
   mesher::Mesh bare = mesh;
   bare.connections = {};
@@ -100,7 +102,7 @@ inline DenseConstraints dense_model(const mesher::Mesh& mesh) {
       model.mass.block<3, 3>(first, first) += mass.mass_kg * Eigen::Matrix3d::Identity();
       continue;
     }
-    // Velocity of the centre v + w x c: kinetic energy by columns.
+    // Kinetic energy is that of the centre's velocity v + w x c, by columns.
     Eigen::Matrix<double, 3, 6> center = Eigen::Matrix<double, 3, 6>::Zero();
     for (Eigen::Index k = 0; k < 3; ++k) {
       center.col(k) = Eigen::Vector3d::Unit(k);
@@ -116,7 +118,7 @@ inline DenseConstraints dense_model(const mesher::Mesh& mesh) {
   return model;
 }
 
-/// The columns span all motions that the equations allow.
+/// Basis, in columns, of all motions that satisfy the equations.
 inline Eigen::MatrixXd allowed_motions(const DenseConstraints& model) {
   const Eigen::Index size = model.stiffness.rows();
   if (model.equations.empty()) return Eigen::MatrixXd::Identity(size, size);

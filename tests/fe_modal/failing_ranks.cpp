@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fails as a library or a rank may fail, for tests of what is left behind:
-//   failing_ranks start   PETSc starts, and what comes after that in the session fails
-//   failing_ranks rank    under mpirun: rank 0 ends for want of memory, the others wait for it in a
+// Fails as a library or a rank may fail, for tests of the remaining state:
+//   failing_ranks start   PETSc starts, and the next call of the session fails
+//   failing_ranks rank    under mpirun: rank 0 ends for lack of memory, the others wait for it in a
 //   sum
 #include <cstdio>
 #include <string>
@@ -45,7 +45,7 @@ int fail_on_a_rank() {
 
 }  // namespace
 
-// In place of PETSc's: what the session calls next when SLEPc has started.
+// Replaces PETSc's function, which the session calls next after SLEPc has started.
 extern "C" PetscErrorCode PetscPushErrorHandler(
     PetscErrorCode (* /*handler*/)(MPI_Comm, int, const char*, const char*, PetscErrorCode,
                                    PetscErrorType, const char*, void*),

@@ -24,7 +24,7 @@ inline Eigen::MatrixXd average_motion(const mesher::Mesh& mesh, const std::strin
   return average;
 }
 
-/// How an interface answers unit forces and moments on itself, as the modes sum it up.
+/// Compliance of an interface under unit forces and moments on itself, as the sum over the modes.
 inline Eigen::MatrixXd modal_compliance(const ModalBody& body, const std::string& interface) {
   const Interface& at = body.interface(interface);
   Eigen::MatrixXd motions(6, body.mode_count());
@@ -33,8 +33,8 @@ inline Eigen::MatrixXd modal_compliance(const ModalBody& body, const std::string
   return motions * omega.cwiseAbs2().cwiseInverse().asDiagonal() * motions.transpose();
 }
 
-/// The largest difference of two compliances, each entry over the size that the diagonal gives it:
-/// metres and radians side by side.
+/// Largest difference of two compliances, each entry relative to the size from the diagonal, so
+/// that metres and radians compare.
 inline double difference(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected) {
   const Eigen::VectorXd scale = expected.diagonal().cwiseSqrt().cwiseInverse();
   return (scale.asDiagonal() * (found - expected) * scale.asDiagonal()).cwiseAbs().maxCoeff();

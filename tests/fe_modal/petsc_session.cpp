@@ -12,7 +12,7 @@
 
 namespace {
 
-/// PETSc is there while tests run.
+/// Keeps PETSc initialised while tests run.
 class SessionOfRun : public Catch::TestEventListenerBase {
  public:
   using Catch::TestEventListenerBase::TestEventListenerBase;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Constraints × solvers × ranks: this program runs under mpirun on one, two and three ranks, prints
-// a cell for each kind of constraint and solver, and fails unless all agree with dense matrices
-// whose constraints are made by a basis of all motions that they allow. It counts modes below some
-// frequencies too, and compares what it finds for the mesh's error with
-// what a process finds alone.
+// a cell for each kind of constraint and solver, and fails unless all agree with dense matrices in
+// a basis of all motions that satisfy the constraints. It also counts modes below some frequencies,
+// and compares the discretisation error estimate with that of a serial run.
 #include <array>
 #include <cstdio>
 #include <numbers>
@@ -31,7 +30,7 @@ const Eigen::Vector3d kTip(0.01, -0.02, 0.32);
 const RigidAttachment kHead{
     "head", "tip", 4.5, {0.03, 0.01, 0.4}, 0.02 * Eigen::Matrix3d::Identity()};
 
-/// Metal between rubber, without any symmetry.
+/// A block of metal between rubber, without any symmetry.
 mesher::Mesh block() {
   testing::BlockMesh box = testing::box({2, 1, 1}, {1, 1, 1}, {"soft", 8.3e6, 0.49, 950});
   box.slices = {{"lower", 2, {"soft", 8.3e6, 0.49, 950}},
@@ -53,14 +52,15 @@ struct Cell {
 struct Truth {
   Eigen::VectorXd frequencies_Hz;
   Eigen::VectorXd loaded_Hz;
-  Eigen::MatrixXd compliance;  ///< of the top's average motion
+  Eigen::MatrixXd compliance;  ///< compliance of the top's average motion
 };
 
 Eigen::VectorXd lowest_Hz(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass) {
   return testing::lowest_values(stiffness, mass, kModes).cwiseSqrt() / (2 * std::numbers::pi);
 }
 
-/// Of the head about the tip: velocities of its centre, then the inertia about it.
+/// Mass matrix of the head about the tip, from the velocity of its centre and its inertia about the
+/// centre.
 Matrix6d head_mass() {
   Eigen::Matrix<double, 3, 6> center = Eigen::Matrix<double, 3, 6>::Zero();
   for (Eigen::Index k = 0; k < 3; ++k) {
@@ -132,7 +132,7 @@ double difference(const Eigen::VectorXd& found, const Eigen::VectorXd& expected)
   return (found.array() / expected.array() - 1).abs().maxCoeff();
 }
 
-/// Of the frequencies of the finer mesh from those of a process alone.
+/// Largest difference of the finer mesh's frequencies from those of a serial run.
 double difference_of_refined(const ModalBody& found, const ModalBody& alone) {
   double largest = 0;
   for (std::size_t k = 0; k < kModes; ++k) {
@@ -143,7 +143,7 @@ double difference_of_refined(const ModalBody& found, const ModalBody& alone) {
   return largest;
 }
 
-/// Largest deviation of a cell, on the first rank; more than one where something is missing.
+/// Largest deviation of a cell, on the first rank; more than one if a result is missing.
 double deviation(const mesher::Mesh& mesh, const Cell& cell, const Truth& truth, Solver solver,
                  const Ranks& ranks) {
   ModalOptions options;
@@ -164,7 +164,7 @@ double deviation(const mesher::Mesh& mesh, const Cell& cell, const Truth& truth,
   const double refined = difference_of_refined(body, analyse_modes(mesh, options, {}));
   const Eigen::MatrixXd& compliance = body.interfaces.back().response.value().compliance;
   const double scale = truth.compliance.diagonal().maxCoeff();
-  // Of a motion that is fixed there is no compliance to divide by.
+  // The compliance of a fixed motion is zero, and cannot be divided by.
   return std::max({refined, difference(body.frequencies_Hz.head(kModes), truth.frequencies_Hz),
                    difference(body.attached.front().frequencies_Hz, truth.loaded_Hz),
                    (compliance - truth.compliance).cwiseAbs().maxCoeff() / scale});
@@ -196,7 +196,7 @@ int run_all(const Ranks& ranks) {
   return failures;
 }
 
-/// Modes below some frequencies that the ranks count.
+/// Total number of modes below some frequencies, counted by the ranks.
 int count_all(const Ranks& ranks) {
   const mesher::Mesh mesh = block();
   const DofMap dof_map(mesh, mesh.node_set("bottom").nodes);

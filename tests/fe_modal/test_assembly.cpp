@@ -88,7 +88,7 @@ TEST_CASE("a shift takes the mass off the stiffness") {
 
 TEST_CASE("a field comes back from its free values, and forces do the same work on them") {
   const std::vector<std::int32_t> fixed = {1, 4};
-  // Nodes 2 and 5 are one, and so are 0, 6 and 7, where two cuts cross.
+  // Nodes 2 and 5 are tied, and so are 0, 6 and 7, where two cuts cross.
   std::vector<mesher::Slit> slits(2);
   slits[0].tied = true;
   slits[0].lower = {2, 7};
@@ -97,7 +97,7 @@ TEST_CASE("a field comes back from its free values, and forces do the same work 
   slits[1].lower = {6};
   slits[1].upper = {0};
   const DofMap dof_map(9, fixed, slits);
-  REQUIRE(dof_map.free_count() == 4);  // {0, 6, 7}, {2, 5}, 3, 8
+  REQUIRE(dof_map.free_count() == 4);  // blocks {0, 6, 7}, {2, 5}, 3, 8
   const Eigen::VectorXd values = Eigen::VectorXd::Random(12);
   const Eigen::Matrix3Xd field = dof_map.expand(values);
   CHECK(field.col(1).isZero());

@@ -24,12 +24,12 @@ Eigen::Matrix3d full_inertia() {
   return inertia;
 }
 
-/// How often PETSc or SLEPc has logged an event.
+/// Number of times that PETSc or SLEPc has logged an event.
 int calls_of(const char* event) {
   PetscLogEvent id = -1;
   PetscEventPerfInfo info{};
   require(PetscLogEventGetId(event, &id), "asking for an event");
-  if (id < 0) return 0;  // SLEPc registers its events when it is used first
+  if (id < 0) return 0;  // SLEPc registers its events when it is first used
   require(PetscLogEventGetPerfInfo(0, id, &info), "asking for an event");
   return info.count;
 }
@@ -37,7 +37,7 @@ int calls_of(const char* event) {
 }  // namespace
 
 TEST_CASE("the mass matrix of a rigid body is that of its particles") {
-  // Kinetic energy of eight particles against 1/2 v^T M v.
+  // The kinetic energy of eight particles is compared with 1/2 v^T M v.
   const Eigen::Vector3d center(0.1, -0.2, 0.3);
   double mass = 0;
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
@@ -83,7 +83,8 @@ TEST_CASE("frequencies with a body attached agree with a dense solution") {
   const Eigen::VectorXd expected =
       testing::dense_pairs(dense(system.stiffness.get()), mass).values.head(6).cwiseSqrt() /
       (2 * std::numbers::pi);
-  // Few modes: a search of its own; enough: from their span; all: a span with nothing beside it.
+  // With few modes a search of its own is made, with more the frequencies come from the modes'
+  // span, and with all modes nothing is left beside the span.
   for (const int count : {3, 6, 10, static_cast<int>(dof_map.dof_count())}) {
     options.mode_count = count;
     const ModalBody body = analyse_modes(mesh, options, {});
@@ -115,7 +116,7 @@ TEST_CASE("modes with a body attached are SLEPc's, by the one factor that PETSc 
   const ModalBody body = analyse_modes(mesh, options, {});
   std::array<int, 4> calls = counts();
   for (std::size_t k = 0; k < calls.size(); ++k) calls[k] -= before[k];
-  CHECK(calls[0] == 4);  // modes, with the head attached, and beside both what may be missing
+  CHECK(calls[0] == 4);  // modes, modes with the head, and for each a check for missing ones
   CHECK(calls[1] == 1);
   CAPTURE(body.solver);
   CHECK_THAT(body.solver, Catch::EndsWith("; " + std::to_string(calls[2]) + " solves, " +
@@ -123,10 +124,10 @@ TEST_CASE("modes with a body attached are SLEPc's, by the one factor that PETSc 
 }
 
 TEST_CASE("a heavy body on a light cantilever swings as the beam's two tip springs tell") {
-  // Plane of x and z: tip flexibility of a beam with shear, [L^3/3EI + L/kGA, L^2/2EI; ., L/EI],
-  // mass and inertia of the body at a distance from the tip. nu = 0, so the clamp adds nothing.
-  // Expected deviation: beam mass (1e-6 of the body's) 1e-6, shear coefficient 5/6 (of a share of
-  // 0.2 %) and discretisation a few 1e-5.
+  // The plane is that of x and z: tip flexibility of a beam with shear, [L^3/3EI + L/kGA, L^2/2EI;
+  // ., L/EI], mass and inertia of the body at a distance from the tip. nu = 0, so the clamp adds no
+  // stiffness. Expected deviation: beam mass (1e-6 of the body's) 1e-6, shear coefficient 5/6 (of a
+  // share of 0.2 %) and discretisation a few 1e-5.
   constexpr double kTolerance = 2e-4;
   constexpr double kSide = 0.02, kLength = 0.4, kYoung = 2.1e11;
   constexpr double kMass = 2.0, kInertia = 0.004, kArm = 0.05;
@@ -145,7 +146,7 @@ TEST_CASE("a heavy body on a light cantilever swings as the beam's two tip sprin
 
   const double EI = kYoung * std::pow(kSide, 4) / 12;
   const double kGA = 5.0 / 6 * kYoung / 2 * kSide * kSide;
-  Eigen::Matrix2d flexibility;  // of (x, theta_y) to (F_x, M_y)
+  Eigen::Matrix2d flexibility;  // map from (F_x, M_y) to (x, theta_y)
   flexibility << std::pow(kLength, 3) / (3 * EI) + kLength / kGA, kLength * kLength / (2 * EI),
       kLength * kLength / (2 * EI), kLength / EI;
   Eigen::Matrix2d mass;

@@ -39,8 +39,8 @@ ModalBody beam() {
 }  // namespace
 
 TEST_CASE("effective masses of a cantilever are the textbook's shares") {
-  // Blevins, Formulas for natural frequency and mode shape: 0.6131, 0.1883, 0.0647, 0.0331.
-  constexpr double kPrinted = 0.006;  // half of the last digit, in per cent
+  // Blevins, Formulas for natural frequency and mode shape, has 0.6131, 0.1883, 0.0647, 0.0331.
+  constexpr double kPrinted = 0.006;  // half of the last printed digit, in per cent
   const ModalBody body = beam();
   const BasisTable table = basis_table(body);
   double sum = 0;
@@ -55,7 +55,7 @@ TEST_CASE("effective masses of a cantilever are the textbook's shares") {
     sum += 100 * table.effective_mass_kg(k, 0) / kMass;
     CHECK(table.inertia_percent(k, 0) == Approx(sum).epsilon(1e-12));
   }
-  // One mode turns the beam about y through its root by (2 / 1.8751^2)^2 of m L^2.
+  // One mode rotates the beam about y through its root by (2 / 1.8751^2)^2 of m L^2.
   const double about_root = 4 / std::pow(testing::kClampedFree[0], 4);
   CHECK(table.effective_inertia_kg_m2(body.mode_index("fore-aft bending 1"), 1) ==
         Approx(about_root * kMass * kLength * kLength).epsilon(1e-9));

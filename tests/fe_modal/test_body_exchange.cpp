@@ -17,7 +17,7 @@ using Catch::Matchers::Contains;
 namespace flexneck::fe_modal {
 namespace {
 
-/// Of the numbers that both formats have; a text of seventeen digits loses nothing.
+/// Relative rounding of the numbers in both formats; a text of seventeen digits loses nothing.
 constexpr double kRounding = 1e-14;
 
 ModalBody sample() {
@@ -70,8 +70,8 @@ std::string replaced(std::string text, const std::string& was, const std::string
   return text.replace(place, was.size(), is);
 }
 
-/// A bar of three lumps along x that bends in y: one mode, mass-normalised, at 1 rad/s. Nodes 1 to
-/// 3 are at 0, 1 and 2 m; node 1 is fixed.
+/// MBDyn file of a bar of three lumps along x that bends in y: one mode, mass-normalised, at 1
+/// rad/s. Nodes 1 to 3 are at 0, 1 and 2 m; node 1 is fixed.
 std::string lumped_bar(const std::string& modal_mass) {
   return R"(** RECORD GROUP 1, HEADER
 ** REVISION, NODE, NORMAL, ATTACHMENT, CONSTRAINT, REJECTED MODES
@@ -120,7 +120,7 @@ TEST_CASE("a body comes back from MBDyn's and Wallrapp's formats with all its in
 
 TEST_CASE("modes of any scale that are coupled come back as eigenvectors") {
   const ModalBody truth = sample();
-  Eigen::Matrix3d T;  // combinations of the modes, as another program may take them
+  Eigen::Matrix3d T;  // combinations of the modes, as another program may choose them
   T << 2, 0.3, -0.1, 0.5, -1, 0.2, 0.1, 0.4, 0.05;
   ReducedBody reduced;
   const InertiaInvariants& inertia = truth.invariants;
@@ -155,7 +155,7 @@ TEST_CASE("modes of any scale that are coupled come back as eigenvectors") {
   CHECK(found.body.modes[0].name == "mode 1");
   CHECK((found.body.frequencies_Hz - truth.frequencies_Hz).cwiseAbs().maxCoeff() <
         1e-12 * truth.frequencies_Hz[2]);
-  // Eigenvectors but for their signs.
+  // The eigenvectors agree but for their signs.
   for (Eigen::Index k = 0; k < 3; ++k) {
     const auto mode = static_cast<std::size_t>(k);
     const double sign = found.body.invariants.S2.col(k).dot(inertia.S2.col(k)) > 0 ? 1 : -1;
@@ -174,9 +174,9 @@ TEST_CASE("lumped masses of an MBDyn file are summed, and contradictions refused
     std::ofstream(path) << text;
     return read_mbdyn_fem(path);
   };
-  const ImportedModes found = read(lumped_bar("2.5"));  // 0.5^2 + 1.5^2
+  const ImportedModes found = read(lumped_bar("2.5"));  // mass 0.5^2 + 1.5^2
   const ModalBody& body = found.body;
-  // sqrt(2 / 2.5) rad/s, shapes over sqrt(2.5)
+  // The frequency is sqrt(2 / 2.5) rad/s, shapes are divided by sqrt(2.5).
   CHECK(body.frequencies_Hz[0] == Approx(std::sqrt(0.8) / (2 * std::numbers::pi)).epsilon(1e-14));
   CHECK(body.interfaces[2].name == "node 30");
   CHECK(std::abs(body.interfaces[2].rotation(2, 0)) == Approx(1.1 / std::sqrt(2.5)));

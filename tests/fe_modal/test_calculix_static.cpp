@@ -20,7 +20,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// CalculiX prints seven digits.
+/// Relative rounding of CalculiX's output, which has seven digits.
 constexpr double kPrinted = 1e-6;
 
 /// A thin tapered plate of 20-node hexahedra, clamped at one end.
@@ -38,7 +38,7 @@ std::vector<std::array<double, 3>> rows_of(const Eigen::Matrix3Xd& columns) {
   return rows;
 }
 
-/// Rows of numbers behind the line of a .dat that has a text, up to the next text.
+/// Rows of numbers in a .dat file after the line with a text, up to the next text.
 std::vector<std::vector<double>> printed_rows(const std::string& dat, const std::string& title) {
   std::istringstream file(dat.substr(std::min(dat.find(title), dat.size())));
   std::vector<std::vector<double>> rows;
@@ -54,8 +54,8 @@ std::vector<std::vector<double>> printed_rows(const std::string& dat, const std:
   return rows;
 }
 
-/// Largest difference of the stresses at the integration points, which CalculiX has in another
-/// order: told by their places.
+/// Largest difference of the stresses at the integration points, which are identified by position,
+/// since CalculiX has another order.
 double stress_difference(const PointStresses& ours, const std::string& dat) {
   const auto stresses = printed_rows(dat, "stresses");
   const auto places = printed_rows(dat, "global coordinates");
@@ -80,9 +80,9 @@ TEST_CASE("CalculiX finds a loaded plate's stresses, buckling load and prestress
   options.mode_count = 6;
   options.formulation.of_others = Formulation::displacement;
   options.fixed_set = "bottom";
-  // In its plane, so that a small stress matters. For *FREQUENCY CalculiX adds the stiffness of the
-  // displacements to that of the stresses, which changes frequencies by the order of the strains,
-  // here 1e-6; for *BUCKLE it does not.
+  // The plate is loaded in its plane, so that a small stress matters. For *FREQUENCY CalculiX adds
+  // the stiffness of the displacements to that of the stresses, which changes frequencies by the
+  // order of the strains, here 1e-6; for *BUCKLE it does not.
   FaceLoad tip{"top"};
   tip.force_N = {3, 0, -20};
   tip.moment_Nm = {0, 0.2, 0};
@@ -129,7 +129,7 @@ TEST_CASE("CalculiX finds a loaded plate's stresses, buckling load and prestress
   const auto factor = buckling_factor(stressed);
   REQUIRE(factor);
   CHECK(*factor == Approx(factors.front().at(1)).epsilon(kPrinted));
-  // The loads matter: without them the first frequency is another.
+  // The loads have an effect: without them the first frequency is another.
   ModalOptions unloaded = options;
   unloaded.prestress.clear();
   CHECK(std::abs(analyse_modes(mesh, unloaded, {}).frequencies_Hz[0] / found_Hz[0] - 1) > 0.02);

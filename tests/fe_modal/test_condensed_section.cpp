@@ -24,7 +24,7 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector12d = Eigen::Matrix<double, 12, 1>;
 
-/// Static shapes of "top" alone, with "bottom" fixed.
+/// Options for the static shapes of "top" alone, with "bottom" fixed.
 ModalOptions section_options(const std::string& bottom, const Eigen::Vector3d& base_m,
                              const std::string& top, const Eigen::Vector3d& top_m) {
   ModalOptions options;
@@ -37,7 +37,7 @@ ModalOptions section_options(const std::string& bottom, const Eigen::Vector3d& b
   return options;
 }
 
-/// Both faces moved as one rigid body.
+/// Motions of both faces as one rigid body.
 Vector12d rigid_motion(const CondensedSection& section, const Eigen::Vector3d& translation,
                        const Eigen::Vector3d& rotation) {
   Vector12d motion;
@@ -66,7 +66,7 @@ Eigen::VectorXd chain_frequencies_Hz(const std::vector<CondensedSection>& chain)
 }  // namespace
 
 TEST_CASE("a section of a slender bar is a beam element between two faces") {
-  // Without Poisson's ratio the faces need not hold the cross section's shape.
+  // With a Poisson's ratio of zero the faces do not constrain the cross section's shape.
   const mesher::Material material{"steel", 2e11, 0, 7800};
   constexpr double kLength = 0.4;
   constexpr double kDepth = 0.02;  // along x
@@ -85,7 +85,7 @@ TEST_CASE("a section of a slender bar is a beam element between two faces") {
   CHECK(section.stiffness(8, 8) == Approx(axial).epsilon(1e-9));
   CHECK(section.stiffness(2, 8) == Approx(-axial).epsilon(1e-9));
 
-  // Timoshenko's beam with the shear coefficient 5/6.
+  // Expected values are Timoshenko's beam with the shear coefficient 5/6.
   const double second_moment = kWidth * kDepth * kDepth * kDepth / 12;
   const double bending = material.youngs_modulus_Pa * second_moment;
   const double shear = 5.0 / 6 * material.youngs_modulus_Pa / 2 * area;
@@ -96,7 +96,7 @@ TEST_CASE("a section of a slender bar is a beam element between two faces") {
   CHECK(section.stiffness(6, 10) == Approx(-transverse * kLength / 2).epsilon(kClampedFaces));
   CHECK(section.stiffness(0, 6) == Approx(-transverse).epsilon(kClampedFaces));
 
-  // Rigid motions: no force, and the whole mass and inertia.
+  // Rigid motions have no force, and the whole mass and inertia.
   for (int direction = 0; direction < 6; ++direction) {
     const Vector6d unit = Vector6d::Unit(direction);
     const Vector12d motion = rigid_motion(section, unit.head<3>(), unit.tail<3>());
@@ -109,7 +109,7 @@ TEST_CASE("a section of a slender bar is a beam element between two faces") {
 
 namespace {
 
-/// The neck's pieces, each a rubber section with the plate above it.
+/// Sections of the neck, each a rubber disc with the plate above it.
 std::vector<CondensedSection> sections_of(const mesher::Mesh& neck) {
   const std::vector<std::string> names = {"one", "two", "three", "four"};
   const auto pieces =
@@ -142,7 +142,7 @@ Eigen::VectorXd six_frequencies_Hz(const mesher::Mesh& neck) {
   return analyse_modes(neck, options, {}).frequencies_Hz;
 }
 
-/// Rigid mass matrix about a point, 6 x 6.
+/// Mass matrix of a lumped mass about a point, 6 x 6.
 Matrix6d mass_about_point(const LumpedMass& mass) {
   Matrix6d matrix;
   matrix << mass.mass_kg * Eigen::Matrix3d::Identity(), -skew(mass.first_moment_kg_m),
@@ -150,7 +150,7 @@ Matrix6d mass_about_point(const LumpedMass& mass) {
   return matrix;
 }
 
-/// The sections with their mass lumped in rigid plates between them.
+/// Sections with their mass lumped in rigid plates between them.
 std::vector<CondensedSection> with_lumped_masses(std::vector<CondensedSection> chain) {
   for (CondensedSection& section : chain) {
     const auto ends = lumped_masses(section);
@@ -172,7 +172,7 @@ TEST_CASE("a chain of condensed sections has the modes of the whole neck within 
   for (Eigen::Index k = 0; k < expected.size(); ++k) {
     CAPTURE(k, expected[k], found[k], lumped[k]);
     CHECK(std::abs(found[k] / expected[k] - 1) < 0.01);
-    CHECK(std::abs(lumped[k] / expected[k] - 1) < (k < 5 ? 0.01 : 0.015));  // the second torsion
+    CHECK(std::abs(lumped[k] / expected[k] - 1) < (k < 5 ? 0.01 : 0.015));  // second torsion mode
   }
 }
 
@@ -190,7 +190,8 @@ TEST_CASE("the lumped masses of a section have the mass, centre and inertia of t
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   const std::array points = {section.base_m, section.top_m};
   for (std::size_t k = 0; k < 2; ++k) {
-    // About the point p from about the origin: J + 2 (p . s) - (p s^T + s p^T) + m (p . p - p p^T).
+    // J about the point p, from that about the origin, is J + 2 (p . s) - (p s^T + s p^T) + m (p .
+    // p - p p^T).
     const Eigen::Vector3d& p = points[k];
     const Eigen::Vector3d& s = ends[k].first_moment_kg_m;
     CHECK(ends[k].mass_kg > 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Published cases whose supports leave rigid motions, hold faces or carry masses, and parts of
+// Published cases whose supports permit rigid motions, fix faces or carry masses, and parts of
 // bodies between planes of symmetry, whose modes are those of the whole.
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@ std::vector<std::int32_t> nodes_at(const mesher::Mesh& mesh,
   return nodes;
 }
 
-/// Holds the nodes of the plane x_a = 0 in its direction.
+/// Fixes the nodes of the plane x_a = 0 in its normal direction.
 void add_symmetry(mesher::Mesh& mesh, Eigen::Index a) {
   constexpr double kOnPlane = 1e-9;
   mesher::Support support{"the plane of symmetry " + std::string(1, "xyz"[a]), {}, {}};
@@ -48,7 +48,8 @@ ModalBody modes_of(const mesher::Mesh& mesh, int count, const std::string& fixed
   return analyse_modes(mesh, options, {});
 }
 
-/// Relative distance of each elastic frequency of a part from the nearest one of the whole.
+/// Checks the relative distance of each elastic frequency of a part from the nearest one of the
+/// whole.
 void check_among(const Eigen::VectorXd& part_Hz, const Eigen::VectorXd& whole_Hz,
                  double tolerance) {
   for (const double frequency : part_Hz) {
@@ -61,10 +62,11 @@ void check_among(const Eigen::VectorXd& part_Hz, const Eigen::VectorXd& whole_Hz
 }  // namespace
 
 TEST_CASE("NAFEMS FV52: a thick plate on its lower edges keeps three rigid motions") {
-  // 10 m x 10 m x 1 m, no deflection along the four edges of one side. Published: 45.897, 109.44
-  // twice, 167.89, 193.59, 206.19 twice, of a plate that is supported in its middle plane; with
-  // 4 x 4 x 1 20-node hexahedra OptiStruct's verification manual has the figures below, their
-  // ratios to four digits. The first lies 2.4 % lower: an edge resists less than a middle plane.
+  // The plate is 10 m x 10 m x 1 m, without deflection along the four edges of one side. Published:
+  // 45.897, 109.44 twice, 167.89, 193.59, 206.19 twice, for a plate that is supported in its middle
+  // plane; with 4 x 4 x 1 20-node hexahedra OptiStruct's verification manual has the figures below,
+  // their ratios to four digits. The first lies 2.4 % lower: an edge resists less than a middle
+  // plane.
   constexpr double kFourDigits = 3e-4;
   constexpr std::array kTargets_Hz = {45.897, 109.44, 109.44, 167.89, 193.59, 206.19, 206.19};
   constexpr std::array kTheirs = {0.9760, 1.0101, 1.0101, 1.0072, 1.0017, 1.0022, 1.0022};
@@ -89,8 +91,8 @@ TEST_CASE("NAFEMS FV52: a thick plate on its lower edges keeps three rigid motio
 }
 
 TEST_CASE("NAFEMS FV22: a thick rhombic plate, clamped at all its sides") {
-  // Sides of 10 m at 45 degrees, 1 m thick; of plate theory: 133.95, 201.41, 265.81, 282.74,
-  // 334.45.
+  // The plate has sides of 10 m at 45 degrees and is 1 m thick; plate theory gives 133.95, 201.41,
+  // 265.81, 282.74, 334.45.
   constexpr double kTolerance = 0.02;
   constexpr std::array kTargets_Hz = {133.95, 201.41, 265.81, 282.74, 334.45};
   testing::BlockMesh block = testing::box({6, 6, 1}, {1, 1, 1}, kNafems);
@@ -115,9 +117,9 @@ TEST_CASE("NAFEMS FV22: a thick rhombic plate, clamped at all its sides") {
 }
 
 TEST_CASE("NAFEMS FV4: a cantilever with two masses off its axis") {
-  // A bar 10 m long and 0.5 m thick, 10 t and 1 t at 2 m on either side of its tip, on rigid arms.
-  // The targets are those of beams: 1.723, 1.727, 7.413, 9.972, 18.155, 26.957; the first two are
-  // 0.2 % apart. The solid differs by its clamped and its rigid end.
+  // The bar is 10 m long and 0.5 m thick, with 10 t and 1 t at 2 m on either side of its tip, on
+  // rigid arms. The targets are those of beams: 1.723, 1.727, 7.413, 9.972, 18.155, 26.957; the
+  // first two are 0.2 % apart. The solid differs by its clamped and its rigid end.
   constexpr double kTolerance = 5e-3;
   constexpr std::array kTargets_Hz = {1.723, 1.727, 7.413, 9.972, 18.155, 26.957};
   testing::BlockMesh block = testing::box({2, 2, 1}, {1, 1, 1}, {});
@@ -197,7 +199,7 @@ TEST_CASE("half of a neck on its bolts, between planes of symmetry, has modes of
   const ModalBody whole = modes_of(whole_mesh, 12, "bolts");
   const ModalBody part = modes_of(half.mesh, 4, "bolts");
   check_among(part.frequencies_Hz, whole.frequencies_Hz, kSame);
-  // Free on its plane it slides along it and turns about its normal.
+  // A half that is free on its plane slides along it and rotates about its normal.
   const ModalBody free = modes_of(half.mesh, 5);
   CHECK(free.boundary == "fixed: the plane of symmetry y; slides along x and z, turns about y");
   CHECK(free.frequencies_Hz.head(3).isZero(0));

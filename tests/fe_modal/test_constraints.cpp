@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Constraints, masses and springs against dense matrices in a basis of the null space of all
-// constraint equations, which are written down here anew.
+// constraint equations, which are implemented independently.
 #include <numbers>
 #include <string>
 #include <vector>
@@ -17,10 +17,10 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-/// Two solutions of the same small problem in double precision.
+/// Relative difference of two solutions of the same small problem in double precision.
 constexpr double kSame = 1e-9;
 
-/// A rubber block without any symmetry; its sets "bottom" and "top".
+/// A rubber block without any symmetry, with the sets "bottom" and "top".
 mesher::Mesh block() {
   testing::BlockMesh box = testing::box({1, 1, 2}, {1, 1, 1}, {"rubber", 8.3e6, 0.45, 950});
   box.position = [](const Eigen::Vector3d& p) -> Eigen::Vector3d {
@@ -29,7 +29,7 @@ mesher::Mesh block() {
   return box.make();
 }
 
-/// Frequencies in Hz of the dense model, those of rigid motions included.
+/// Frequencies in Hz of the dense model, including those of rigid motions.
 Eigen::VectorXd dense_frequencies(const mesher::Mesh& mesh) {
   const DenseConstraints model = dense_model(mesh);
   const Eigen::MatrixXd basis = allowed_motions(model);
@@ -44,7 +44,8 @@ mesher::AxisSystem axes(const Eigen::Vector3d& z, bool is_cylindrical) {
   return {{-0.4, 0.1, 0.05}, mesher::axes_from(z, Eigen::Vector3d::Zero()), is_cylindrical};
 }
 
-/// Its modes are those of the dense matrices, orthonormal in the mass that the invariants are of.
+/// Checks that the modes are those of the dense matrices, orthonormal in the mass of the
+/// invariants.
 void check_modes(const mesher::Mesh& mesh, Eigen::Index rigid_count) {
   ModalOptions options;
   options.mode_count = 8;
@@ -94,8 +95,8 @@ TEST_CASE("couplings with masses, also held and in some directions, leave those 
         {"m", 0, 2.5, {0.05, -0.02, 0.1}, {0.02, 0.03, 0.025, 0.003, -0.002, 0.004}}};
     mesh.connections.masses[0].site = mesher::translation_site(mesh.nodes.size(), 0);
     check_modes(mesh, 6);
-    // Mass and moments of the whole about the origin: those of the block, and Steiner's of the
-    // mass.
+    // Mass and moments of inertia of the whole about the origin are those of the block, and the
+    // parallel axis terms of the mass.
     ModalOptions options;
     options.mode_count = 6;
     const ModalBody body = analyse_modes(mesh, options, {});
@@ -129,7 +130,7 @@ TEST_CASE("equations in a chain with a coupling, and springs, leave those modes 
   mesher::Connections& connections = mesh.connections;
   const std::int32_t tip = mesher::translation_site(mesh.nodes.size(), 0);
   const std::vector<std::int32_t>& bottom = mesh.node_set("bottom").nodes;
-  // A second point follows the tip with a gear, nodes of the bottom follow that one.
+  // A second point follows the tip with a gear; nodes of the bottom follow the second point.
   connections.points.push_back({"second", {0, 0, -0.1}});
   const std::int32_t second = mesher::translation_site(mesh.nodes.size(), 1);
   connections.couplings.push_back(
@@ -170,7 +171,8 @@ TEST_CASE("a mass that hangs on springs alone moves as softly as they are") {
   }
   mesh.connections.masses = {{"m", site, 4, {}, {}}};
   check_modes(mesh, 0);
-  // So soft that the body's own mechanisms would be no slower. The block bends with 1e-4 m/N.
+  // The springs are so soft that mechanisms of the body would be as slow. The compliance of the
+  // block in bending, 1e-4 m/N, times their stiffness is the tolerance.
   constexpr double kBlockGives = 1e-5;
   for (mesher::Spring& spring : mesh.connections.springs) spring.stiffness = 0.1;
   ModalOptions options;

@@ -27,7 +27,7 @@ TEST_CASE("point masses at the corners are positive, with mass and centre of the
     const mesher::Mesh mesh = block_of(kind);
     const CornerMasses corners = lump_at_corners(mesh);
     const Eigen::Matrix3Xd positions = positions_of(mesh);
-    CHECK(corners.nodes.size() == 27);  // of 2 x 2 x 2 hexahedra, cut up or not
+    CHECK(corners.nodes.size() == 27);  // corners of 2 x 2 x 2 hexahedra, cut or not
     CHECK(corners.masses_kg.minCoeff() > 0);
     const double mass = 7850 * 0.2 * 0.3 * 0.4;
     CHECK(corners.masses_kg.sum() == Approx(mass).epsilon(kRounding));
@@ -49,7 +49,7 @@ TEST_CASE("corners turn with a rigid rotation, and by half its shear angle with 
     for (auto point : motion.colwise()) {
       const double height = point.z();
       point = turn.cross(Eigen::Vector3d(point)).eval();
-      point.x() += 0.1 * height;  // turns by 0.05 about y
+      point.x() += 0.1 * height;  // rotates by 0.05 about y
     }
     const Eigen::Vector3d expected = turn + Eigen::Vector3d(0, 0.05, 0);
     const Eigen::Matrix3Xd rotations = corner_rotations(mesh, corners.nodes, motion);
@@ -58,7 +58,7 @@ TEST_CASE("corners turn with a rigid rotation, and by half its shear angle with 
 }
 
 TEST_CASE("where plate and rubber meet, corners turn as the plate does") {
-  // The plate stays, the rubber is sheared: by half its angle, were it alone.
+  // The plate does not move, the rubber is sheared: alone it would rotate by half the shear angle.
   testing::BlockMesh block = testing::box({1, 1, 2}, {0.1, 0.1, 0.1}, kSteel);
   block.slices = {{"plate", 1, kSteel}, {"rubber", 1, kRubber}};
   const mesher::Mesh mesh = block.make();

@@ -20,11 +20,11 @@ constexpr double kLength = 0.4;
 constexpr double kBeamDepth = 0.02;
 constexpr double kWidth = 0.01;
 constexpr double kCrackAt = 0.08;
-// Without Poisson's ratio plane stress and plane strain are the same.
+// With a Poisson's ratio of zero plane stress and plane strain are the same.
 const mesher::Material kMaterial{
     .name = "steel", .youngs_modulus_Pa = 2e11, .poissons_ratio = 0, .density_kg_m3 = 7800};
 
-/// Thin layers at the crack, growing away from it; the crack lies at w = 1/2.
+/// Positions of thin layers at the crack that grow away from it; the crack lies at w = 1/2.
 Eigen::Vector3d place(const Eigen::Vector3d& p) {
   constexpr double kGrowth = 4;
   const auto graded = [](double t) { return std::expm1(kGrowth * t) / std::expm1(kGrowth); };
@@ -33,7 +33,7 @@ Eigen::Vector3d place(const Eigen::Vector3d& p) {
   return {(p[0] - 0.5) * kBeamDepth, p[1] * kWidth, z};
 }
 
-/// From the front to `depth`.
+/// Faces of the crack from the front to `depth`.
 mesher::FaceSet crack(const mesher::Mesh& mesh, double depth) {
   constexpr double kNear = 1e-9;
   return testing::crack_faces(mesh, "crack", [&](const Eigen::Vector3d& x) {
@@ -46,7 +46,7 @@ double first_frequency(const mesher::Mesh& mesh) {
   const SystemMatrices system = assemble(mesh, dof_map);
   const LinearSolver factor(system.stiffness.get(), 0);
   const EigenPairs pairs = lowest_eigenpairs(system.mass.get(), factor, 2);
-  // Bending across the depth: the crack opens. The other mode bends across the width.
+  // Bending across the depth opens the crack. The other mode bends across the width.
   const Eigen::Index mode = std::abs(dof_map.expand(pairs.vectors.col(0)).row(0).sum()) >
                                     std::abs(dof_map.expand(pairs.vectors.col(0)).row(1).sum())
                                 ? 0
@@ -54,9 +54,9 @@ double first_frequency(const mesher::Mesh& mesh) {
   return std::sqrt(pairs.values[mode]) / (2 * std::numbers::pi);
 }
 
-/// Rotation that an edge crack adds, over the bending moment: the energy that is released by its
-/// growth in plane stress, with K_I = 6 M / (b h^2) sqrt(pi a) F(a / h) (Tada, Paris and Irwin, The
-/// Stress Analysis of Cracks Handbook, 2.14; within 0.2 % up to a / h = 0.6).
+/// Rotation per bending moment that an edge crack adds, from the energy released by its growth in
+/// plane stress, with K_I = 6 M / (b h^2) sqrt(pi a) F(a / h) (Tada, Paris and Irwin, The Stress
+/// Analysis of Cracks Handbook, 2.14; within 0.2 % up to a / h = 0.6).
 double crack_compliance(double depth) {
   const auto F = [](double s) {
     return 1.122 + s * (-1.40 + s * (7.33 + s * (-13.08 + s * 14.0)));
@@ -72,7 +72,7 @@ double crack_compliance(double depth) {
          (kMaterial.youngs_modulus_Pa * kWidth * kBeamDepth * kBeamDepth);
 }
 
-/// Euler's beam of a length as it carries deflection, slope, moment and shear along.
+/// Transfer matrix of a length of Euler's beam for deflection, slope, moment and shear.
 Eigen::Matrix4d transfer(double length, double omega, double stiffness, double mass_per_length) {
   const double k = std::sqrt(omega) * std::pow(mass_per_length / stiffness, 0.25);
   const double x = k * length;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Supports, couplings, equations, masses and springs of decks: CalculiX finds the same frequencies
-// of the same .inp, and a .bdf that says the same gives them again.
+// with the same .inp, and an equivalent .bdf gives them again.
 #include <fstream>
 #include <functional>
 #include <string>
@@ -26,7 +26,7 @@ mesher::Mesh bar(mesher::ElementKind kind) {
   return testing::with_kind(testing::box({2, 2, 4}, {0.2, 0.3, 0.8}, kSteel).make(), kind);
 }
 
-/// Numbers in the deck, which counts nodes from 1.
+/// Numbers of the nodes in a region, as in the deck, which counts from 1.
 std::vector<std::size_t> numbers_at(const mesher::Mesh& mesh,
                                     const std::function<bool(double, double, double)>& is_in) {
   std::vector<std::size_t> numbers;
@@ -45,8 +45,8 @@ std::size_t at(const mesher::Mesh& mesh, double x, double y, double z) {
       .front();
 }
 
-/// What both decks say: two edges in axes of their own, a corner held in x, the upper end on a
-/// rigid body with a mass, springs, and a distance that stays.
+/// Content of both decks: two edges in axes of their own, a corner fixed in x, the upper end on a
+/// rigid body with a mass, springs, and a constant distance.
 struct Deck {
   explicit Deck(const mesher::Mesh& mesh)
       : radial(numbers_at(mesh, [](double x, double, double z) { return is(x, 0.1) && is(z, 0); })),
@@ -70,7 +70,8 @@ std::string listed(const std::vector<std::size_t>& numbers) {
   return text;
 }
 
-/// Reference point 9001 at (0.03, 0, 0.9), its rotations at node 9002; 9003 hangs on two springs.
+/// Cards of the .inp: reference point 9001 at (0.03, 0, 0.9), its rotations at node 9002; 9003 is
+/// held by two springs.
 std::string inp_cards(const Deck& deck) {
   const auto n = [](std::size_t number) { return std::to_string(number); };
   return "*NODE\n9001,0.03,0.,0.9\n9002,0.03,0.,0.9\n9003,0.5,0.,0.5\n"
@@ -108,7 +109,8 @@ std::string inp_cards(const Deck& deck) {
          n(deck.sprung) + "," + n(deck.above) + "\n*SPRING,ELSET=along\n\n5.e8\n";
 }
 
-/// SPC1, MPC and CORD are selected without a case control: there is one set of each.
+/// Cards of the .bdf. SPC1, MPC and CORD are selected without a case control: there is one set of
+/// each.
 std::string bdf_cards(const Deck& deck) {
   const auto n = [](std::size_t number) { return std::to_string(number); };
   std::string text;
@@ -141,7 +143,8 @@ std::string exact(double value) {
   return text.str();
 }
 
-/// Nodes and 8-node hexahedra in free fields of any width; nodes of the two edges lie in axes.
+/// Nodes and 8-node hexahedra of the .bdf in free fields of any width; nodes of the two edges have
+/// axes of their own.
 std::string bdf_of(const mesher::Mesh& mesh, const Deck& deck) {
   std::string text;
   const auto is_among = [](const std::vector<std::size_t>& numbers, std::size_t number) {
@@ -176,7 +179,7 @@ Eigen::VectorXd frequencies_of(const mesher::Mesh& mesh) {
   return body.frequencies_Hz;
 }
 
-/// The mesh's own deck with the cards before its step.
+/// Writes the mesh's own deck with the cards before its step.
 std::filesystem::path write_deck(const TemporaryFolder& folder, const mesher::Mesh& mesh,
                                  const std::string& more = {}) {
   std::filesystem::path path = folder / "deck.inp";
@@ -215,7 +218,7 @@ TEST_CASE("of a deck with supports, couplings, masses and springs CalculiX finds
     CAPTURE(k, found[static_cast<Eigen::Index>(k)], theirs[k]);
     CHECK(std::abs(found[static_cast<Eigen::Index>(k)] / theirs[k] - 1) < kSevenDigits);
   }
-  // The mesh file holds all of it.
+  // The mesh file contains all of these connections.
   mesher::write_mesh(folder / "mesh.h5", {.mesh = mesh, .provenance = {}});
   const mesher::Mesh read = mesher::read_mesh(folder / "mesh.h5").mesh;
   CHECK(read.connections.text() == mesh.connections.text());
@@ -228,7 +231,8 @@ TEST_CASE("a .bdf that says the same as an .inp gives the same modes") {
   const mesher::Mesh mesh = bar(mesher::ElementKind::hex8);
   const Deck deck(mesh);
   std::ofstream(folder / "deck.bdf") << bdf_of(mesh, deck) << bdf_cards(deck) << "ENDDATA\n";
-  // CalculiX, which decides itself what depends on what, refuses this one beside the others.
+  // CalculiX chooses the dependent degrees of freedom itself, and refuses this MPC beside the
+  // others.
   const std::string mpc =
       "*MPC\nBEAM," + std::to_string(deck.geared) + "," + std::to_string(deck.below) + "\n";
   const Eigen::VectorXd expected = frequencies_of(imported(write_deck(folder, mesh, mpc), ""));

@@ -22,14 +22,14 @@ ModalOptions fixed_at_bottom(int mode_count, bool check) {
   return options;
 }
 
-/// With 4 x 4 x 4 elements in place of each.
+/// Reference frequencies with 4 x 4 x 4 elements in place of each.
 Eigen::VectorXd reference_Hz(const mesher::Mesh& mesh, int count) {
   return analyse_modes(mesher::refine(mesher::refine(mesh).mesh).mesh,
                        fixed_at_bottom(count, false), {})
       .frequencies_Hz;
 }
 
-/// Estimated over true error of each mode.
+/// Ratio of estimated to true error of each mode.
 std::vector<double> effectivity(const mesher::Mesh& mesh, const Eigen::VectorXd& truth_Hz) {
   const ModalBody body =
       analyse_modes(mesh, fixed_at_bottom(static_cast<int>(truth_Hz.size()), true), {});
@@ -52,8 +52,9 @@ void check_between_one_and_five(const std::vector<double>& ratios) {
 }  // namespace
 
 TEST_CASE("the mesh's error is estimated one to five times: stretch of a bar, closed form") {
-  // nu = 0: a rod fixed at one end, f = (2n - 1)/4L sqrt(E / rho), n = 1, 2; the slender bar would
-  // bend first, so it is short and thick: stretch is told by its frequency.
+  // With nu = 0 the bar is a rod fixed at one end, f = (2n - 1)/4L sqrt(E / rho), n = 1, 2; a
+  // slender bar would have bending modes first, so it is short and thick: stretch is identified by
+  // its frequency.
   constexpr double kLength = 0.1;
   const mesher::Mesh mesh =
       testing::box({1, 1, 2}, {0.2, 0.2, kLength}, {"steel", 2.1e11, 0, 7850}).make();
@@ -72,7 +73,7 @@ TEST_CASE("the mesh's error is estimated one to five times: stretch of a bar, cl
 }
 
 TEST_CASE("the mesh's error is estimated one to five times: a plate rocking on bonded rubber") {
-  // The reference is a mesh with 4 x 4 x 4 elements in place of one, of an error at least four
+  // The reference is a mesh with 4 x 4 x 4 elements in place of one, with an error at least four
   // times smaller at the order that the singular edges leave.
   testing::BlockMesh pad = testing::box({2, 2, 1}, {0.08, 0.08, 0.03}, {});
   pad.slices = {{"pad", 2, {"rubber", 8.3e6, 0.49, 950}}, {"plate", 1, kSteel}};
@@ -83,15 +84,16 @@ TEST_CASE("the mesh's error is estimated one to five times: a plate rocking on b
 TEST_CASE("the mesh's error is estimated one to five times: bending and twist of a steel tube") {
   const mesher::Mesh mesh = testing::tube({1, 6, 2}, 0.04, 0.06, 0.2, kSteel).make();
   const Eigen::VectorXd reference = reference_Hz(mesh, 3);
-  // Twist: no singularity beside the fixed end, and a closed form.
+  // Torsion has no singularity except at the fixed end, and a closed form.
   const double wave_m_s = std::sqrt(kSteel.youngs_modulus_Pa / 2.6 / kSteel.density_kg_m3);
   CHECK(reference[2] == Approx(wave_m_s / 0.8).epsilon(1e-4));
   check_between_one_and_five(effectivity(mesh, reference));
 }
 
 TEST_CASE("the mesh's error is estimated within its band: linear elements that lock in bending") {
-  // Ten times as long as thick, they are six times too stiff, and twist stands before bending modes
-  // that come before it. Closed forms of Euler and Bernoulli, and of a square's twist.
+  // Elements ten times as long as thick are six times too stiff, and torsion comes before bending
+  // modes that should come before it. Expected values are closed forms of Euler and Bernoulli, and
+  // of the torsion of a square section.
   constexpr double kSide = 0.01;
   constexpr double kLength = 0.8;
   const mesher::Mesh mesh = testing::with_kind(
@@ -123,7 +125,7 @@ TEST_CASE("the mesh's error is estimated within its band: elements 200 times as 
   const double bending_Hz = std::sqrt(kSteel.youngs_modulus_Pa / kSteel.density_kg_m3) * kSide /
                             std::sqrt(12.0) / (2 * std::numbers::pi) / (kLength * kLength);
   const ModalBody body = analyse_modes(mesh, fixed_at_bottom(6, true), {});
-  // The first two are too near to rounding to be told.
+  // The errors of the first two are too near to rounding to be compared.
   for (std::size_t k = 2; k < 6; ++k) {
     const double truth_Hz = (k < 4 ? 22.0345 : 61.6972) * bending_Hz;
     const double error = body.frequencies_Hz[static_cast<Eigen::Index>(k)] / truth_Hz - 1;

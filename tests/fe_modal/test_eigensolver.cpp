@@ -43,7 +43,7 @@ Eigen::VectorXd dense_eigenvalues(const SystemMatrices& system) {
 }  // namespace
 
 TEST_CASE("modes of a fixed body agree with a dense solution, exactly double ones included") {
-  // A square bar of 2 x 2 x 3 elements: bending comes in pairs.
+  // The bar is square, of 2 x 2 x 3 elements: bending modes come in pairs.
   constexpr double kTolerance = 1e-9;
   const mesher::Mesh mesh = testing::box({2, 2, 3}, {0.1, 0.1, 0.4}, kSteel).make();
   const DofMap dof_map(mesh, mesh.node_set("bottom").nodes);

@@ -21,12 +21,12 @@ constexpr Formulation kMixed = Formulation::mixed_pressure;
 constexpr Formulation kDisplacement = Formulation::displacement;
 constexpr Formulation kReduced = Formulation::reduced;
 
-/// An element and what is expected of it.
+/// An element and the expected range of its error.
 struct Row {
   ElementKind kind;
   Formulation formulation;
-  double lowest;   ///< relative error of a frequency, at least
-  double highest;  ///< at most
+  double lowest;   ///< lower bound of the relative error of a frequency
+  double highest;  ///< upper bound
 };
 
 double lowest_frequency(const mesher::Mesh& mesh, const DofMap& dof_map, Formulation formulation) {
@@ -41,9 +41,9 @@ double lowest_frequency(const mesher::Mesh& hexahedra, const Row& row) {
   return lowest_frequency(mesh, DofMap(mesh, mesh.node_set("bottom").nodes), row.formulation);
 }
 
-/// Relative error of the frequency of Lame's mode of a free square plate: u = (sin kx cos ky,
-/// -cos kx sin ky, 0), k = pi over the side, leaves all its sides free of load. The quarter x, y >
-/// 0 of its upper half, on rollers, of n x n x n/4 elements of hex27 and their pieces.
+/// Relative error of the frequency of Lame's mode of a free square plate: u = (sin kx cos ky, -cos
+/// kx sin ky, 0), k = pi over the side, has no traction on any side. The model is the quarter x, y
+/// > 0 of its upper half, on rollers, with n x n x n/4 elements of hex27 and their subdivisions.
 double lame_mode_error(ElementKind kind, Formulation formulation, int n) {
   constexpr double kSide = 0.1;
   testing::BlockMesh block = testing::box({n, n, n / 4}, {1, 1, 1}, kSteel);
@@ -81,9 +81,10 @@ TEST_CASE("frequencies converge with twice the order of the element") {
 }
 
 TEST_CASE("a slender cantilever of every element bends at Euler's frequency less shear") {
-  // Rayleigh's and Timoshenko's corrections as in test_modal_analysis.cpp; nu = 0. Second-order
-  // elements, 2 x 2 x 20: within 2e-4. Elements of first order lock in shear: it is known that they
-  // need far finer meshes, and B-bar does not change that; tetrahedra and pyramids are the worst.
+  // Rayleigh's and Timoshenko's corrections are as in test_modal_analysis.cpp; nu = 0. Second-order
+  // elements, 2 x 2 x 20, are within 2e-4. Elements of first order lock in shear: it is known that
+  // they need far finer meshes, and B-bar does not change that; tetrahedra and pyramids are the
+  // worst.
   constexpr double kFine = 2e-4;
   const std::vector<Row> rows = {{ElementKind::hex8, kMixed, 0.1, 0.2},
                                  {ElementKind::hex8, kDisplacement, 0.2, 0.3},
@@ -108,7 +109,7 @@ TEST_CASE("a slender cantilever of every element bends at Euler's frequency less
                                  {ElementKind::pyramid14, kMixed, 0, kFine},
                                  {ElementKind::pyramid14, kDisplacement, 0, kFine}};
   constexpr double kSide = 0.02, kLength = 0.4, kYoung = 2.1e11, kDensity = 7850;
-  constexpr double kRoot = 1.8751040687119611;  // cos cosh = -1
+  constexpr double kRoot = 1.8751040687119611;  // root of cos cosh = -1
   const double ratio = kSide * kSide / 12 / (kLength * kLength);
   const double expected = kRoot * kRoot / (2 * std::numbers::pi) *
                           std::sqrt(kYoung * kSide * kSide / 12 / kDensity) / std::pow(kLength, 2) *
@@ -124,11 +125,11 @@ TEST_CASE("a slender cantilever of every element bends at Euler's frequency less
 }
 
 TEST_CASE("locking on a bonded rubber pad: elements stand where the study's table has them") {
-  // A flat pad with nu = 0.49, bonded to a steel plate that rocks on it, 8 x 8 x (4 + 2) elements
-  // of hex27 and their pieces. Converged: hex27, mixed, at half and a third of the size give 190.07
-  // Hz. Mixed elements of second order: within 0.7 %; displacements: above 1 % at any DOF
-  // (pyramids, with three times the elements: 0.8 %); 8-node hexahedra: B-bar 1.3 %, full
-  // integration beyond 4 %.
+  // The pad is flat with nu = 0.49, bonded to a steel plate that rocks on it, with 8 x 8 x (4 + 2)
+  // elements of hex27 and their subdivisions. Converged value: hex27, mixed, at half and a third of
+  // the size give 190.07 Hz. Mixed elements of second order are within 0.7 %; displacement elements
+  // above 1 % at any DOF (pyramids, with three times the elements: 0.8 %); 8-node hexahedra: B-bar
+  // 1.3 %, full integration beyond 4 %.
   constexpr double kConverged = 190.07;
   const std::vector<Row> rows = {{ElementKind::hex8, kMixed, 0.01, 0.02},
                                  {ElementKind::hex8, kDisplacement, 0.04, 0.06},

@@ -44,12 +44,12 @@ ElementMatrices matrices(ElementKind kind, const Map& map, const mesher::Materia
   return result;
 }
 
-/// The strongest rule that is offered.
+/// Strength of the strongest available rule.
 int strongest_rule(ElementKind kind) {
   return mesher::shape_of(kind) == mesher::ReferenceShape::tetrahedron ? 3 : 4;
 }
 
-/// Integrals by B^T D B in Voigt notation and N^T N, with the strongest rule.
+/// Integrals of B^T D B in Voigt notation and N^T N, with the strongest rule.
 ElementMatrices independent_integrals(ElementKind kind, const Eigen::Matrix3Xd& nodes,
                                       const mesher::Material& material) {
   const double nu = material.poissons_ratio;
@@ -100,7 +100,7 @@ TEST_CASE("stiffness and mass are the integrals of B^T D B and N^T N") {
 
 TEST_CASE("an element resists everything but its six rigid motions") {
   constexpr double kZero = 1e-13;
-  constexpr double kStiff = 1e-7;  // the softest deformation against the stiffest
+  constexpr double kStiff = 1e-7;  // ratio of the softest to the stiffest deformation
   for (const ElementKind kind : kVolumes) {
     for (const mesher::Material& material : {kSteel, kRubber}) {
       for (const Formulation formulation : kFull) {
@@ -117,7 +117,7 @@ TEST_CASE("an element resists everything but its six rigid motions") {
 }
 
 TEST_CASE("reduced integration leaves a 20-node hexahedron six hourglass motions") {
-  // Eight points see 48 strains, 12 short of 60. What neighbours do about it: test_assembly.cpp.
+  // Eight points have 48 strains, 12 short of 60. Neighbours are treated in test_mixed_meshes.cpp.
   constexpr double kZero = 1e-13;
   const Eigen::VectorXd values = testing::symmetric_eigenvalues(
       matrices(ElementKind::hex20, bent, kSteel, Formulation::reduced).stiffness);

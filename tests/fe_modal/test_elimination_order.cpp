@@ -34,7 +34,7 @@ TEST_CASE("a body moves as ever however its blocks are numbered, with constraint
     const LinearSolver factor(assemble(model).stiffness.get(), 0);
     const Eigen::Matrix3Xd motion = bent(by_sites, expected);
     CHECK((bent(model.dof_map(), factor) - motion).norm() < 1e-9 * motion.norm());
-    // And what such a field has as free values is the same.
+    // The free values of such a field are also the same.
     const Eigen::VectorXd values = model.dof_map().restrict(motion);
     CHECK((model.dof_map().expand(values) - motion).norm() < 1e-9 * motion.norm());
   }

@@ -15,7 +15,7 @@ namespace {
 
 using mesher::ElementKind;
 
-/// Of differences of order 6 with steps of a hundredth.
+/// Relative error of differences of order 6 with steps of a hundredth.
 constexpr double kDifferences = 1e-8;
 constexpr double kLambda = 3e5;
 
@@ -30,14 +30,14 @@ Eigen::Matrix3Xd element_nodes(ElementKind kind) {
   return nodes;
 }
 
-/// Any numbers, the same in every run.
+/// Arbitrary numbers, the same in every run.
 Eigen::MatrixXd numbers(Eigen::Index rows, Eigen::Index columns, double phase) {
   return Eigen::MatrixXd::NullaryExpr(rows, columns, [phase](Eigen::Index i, Eigen::Index j) {
     return std::sin(phase + 1.7 * static_cast<double>(i) + 2.9 * static_cast<double>(j));
   });
 }
 
-/// u^T (K - lambda M) w and the mass, by the matrices that are assembled.
+/// Forms u^T (K - lambda M) w and the mass, from the assembled matrices.
 Eigen::Vector3d energies(const ElementScheme& scheme, const Eigen::Matrix3Xd& nodes_m,
                          const mesher::Material& material, const Eigen::MatrixXd& fields) {
   ElementMatrices element;
@@ -75,7 +75,7 @@ TEST_CASE("energies of every element change as the gradient says") {
               Eigen::Vector3d(1, 1, 0) +
           Eigen::Vector3d(0, 0, energies(scheme, nodes, kRubber, fields)[2]);
 
-      // A relative change of the size of the element in a unit of t.
+      // The element changes by the order of its own size per unit of t.
       const Eigen::Matrix3Xd velocity = 0.01 * numbers(3, n, 1.1);
       const auto moved = [&](double t) {
         return energies(scheme, nodes + t * velocity, kRubber, fields);

@@ -51,7 +51,7 @@ TEST_CASE("errors are none alone of slender elements and of bodies with a re-ent
                             return mesher::ElementKind::hex20;
                           });
   CHECK(limits_of_estimate(angle, fixed("bottom")).empty());
-  // Because they hold: against 4 x 4 x 4 elements in place of each.
+  // Comparison with 4 x 4 x 4 elements in place of each shows that the estimates are valid.
   ModalOptions options = fixed("bottom");
   options.mode_count = 3;
   const mesher::Mesh fine = mesher::refine(mesher::refine(angle).mesh).mesh;
@@ -73,7 +73,7 @@ TEST_CASE("what single nodes hold or load is named by its set, whole faces are n
   const std::vector<std::int32_t> bottom = mesh.node_set("bottom").nodes;
   mesh.node_sets.push_back({"corners", {bottom[0], bottom[8], bottom[72], bottom[80]}});
   mesh.node_sets.push_back({"edge", {bottom.begin(), bottom.begin() + 9}});
-  // A face of nine nodes, one beside it, and a node of the far side.
+  // The set has a face of nine nodes, one node beside it, and a node of the far side.
   mesh.node_sets.push_back({"patch",
                             {bottom[0], bottom[1], bottom[2], bottom[9], bottom[10], bottom[11],
                              bottom[18], bottom[19], bottom[20], bottom[12], bottom[80]}});

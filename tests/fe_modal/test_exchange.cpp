@@ -45,8 +45,8 @@ TEST_CASE("matrices that went out and came back have the frequencies of the mesh
     CHECK(body.frequencies_Hz.isApprox(truth.frequencies_Hz, 1e-9));
     CHECK(body.completeness.starts_with("checked"));
     CHECK(body.orthogonality < 1e-9);
-    // What moves: the mass but for that on the fixed nodes, S2 but for its share of them, which is
-    // zero.
+    // Only the free nodes have mass: the total is less that of the fixed nodes, S2 less their share
+    // of it, which is zero.
     CHECK(body.invariants.mass < truth.invariants.mass);
     CHECK(body.invariants.Maa.isApprox(truth.invariants.Maa, 1e-9));
   }
@@ -60,7 +60,7 @@ TEST_CASE("matrices are solved by the package and the options of PETSc that are 
   options.solver = Solver::mumps;
   options.petsc_options = "-st_mat_mumps_icntl_14 50";
   CHECK_THAT(analyse_matrices(matrices(column()), options, {}).solver, Catch::StartsWith("MUMPS"));
-  options.solver = Solver::cholmod;  // which does not ask for it
+  options.solver = Solver::cholmod;  // CHOLMOD does not use that option of MUMPS
   CHECK_THROWS_AS(analyse_matrices(matrices(column()), options, {}), InputError);
 }
 

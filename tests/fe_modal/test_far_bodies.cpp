@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rigid motions that a body keeps depend neither on where it stands nor on the size of its
-// coefficients: against the same body at the origin, and dense matrices in the null space.
+// The rigid motions that a body keeps depend neither on its position nor on the size of its
+// coefficients: comparison with the same body at the origin, and with dense matrices in the null
+// space.
 #include <numbers>
 #include <vector>
 
@@ -41,7 +42,7 @@ void check_the_same(const ModalBody& found, const ModalBody& expected) {
         1e-6 * expected.frequencies_Hz[0] + 1e-6 * expected.frequencies_Hz.norm());
 }
 
-/// Against the dense model, rotations as lengths.
+/// Compares with the dense model, rotations as lengths.
 void check_against_null_space(const mesher::Mesh& mesh, Eigen::Index rigid) {
   DenseConstraints model = dense_model(mesh);
   for (Eigen::VectorXd& row : model.equations) row.normalize();
@@ -82,7 +83,7 @@ TEST_CASE("a body keeps what its supports leave of rigid motions, wherever it st
   };
   const ModalBody expected = analyse_modes(cylindrical(Eigen::Vector3d::Zero()), options, {});
   CHECK((expected.frequencies_Hz.array() == 0).count() ==
-        4);  // it slides and turns every way but across
+        4);  // translation along the axis, rotations about all axes
   for (const double distance_m : {20.0, 5e5})
     check_the_same(analyse_modes(cylindrical({distance_m, 10 * distance_m, 1}), options, {}),
                    expected);
@@ -145,7 +146,8 @@ TEST_CASE("modes of a block on soft springs, 1e-8 of its own, are found together
   const Eigen::VectorXd values = (2 * std::numbers::pi * body.frequencies_Hz.array()).square();
   CAPTURE(values.transpose(), lowest.transpose());
   CHECK((values.head(6) - lowest.head(6)).cwiseAbs().maxCoeff() < 1e-5 * lowest[0]);
-  // The block's own, by dense matrices without springs, which soft ones hardly move.
+  // The expected values are the block's own, by dense matrices without springs; the soft springs
+  // hardly change them.
   const Eigen::VectorXd own = testing::dense_pairs(model.stiffness, model.mass).values;
   for (Eigen::Index k = 6; k < 8; ++k) CHECK(values[k] == Approx(own[k]).epsilon(1e-6));
 }

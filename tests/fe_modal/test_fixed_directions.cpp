@@ -17,7 +17,7 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-/// Two solutions of the same small problem in double precision.
+/// Relative difference of two solutions of the same small problem in double precision.
 constexpr double kSame = 1e-9;
 const Eigen::Vector3d kTip(0.01, -0.02, 0.3);
 
@@ -25,7 +25,7 @@ mesher::Mesh block() {
   return testing::box({2, 2, 4}, {0.12, 0.15, 0.3}, {"rubber", 8.3e6, 0.45, 950}).make();
 }
 
-/// Stands on rollers that turn about x, and leans on a wall that it may slide along.
+/// Options of a block on rollers that rotate about x, leaning on a wall that it may slide along.
 ModalOptions on_rollers(BasisKind basis, int count) {
   ModalOptions options;
   options.mode_count = count;
@@ -35,7 +35,7 @@ ModalOptions on_rollers(BasisKind basis, int count) {
   return options;
 }
 
-/// The side x = 0 as a set, which boxes do not name.
+/// Block with its side x = 0 as a set, which boxes do not name.
 mesher::Mesh block_with_left() {
   mesher::Mesh mesh = block();
   mesher::NodeSet left{"left", {}};
@@ -48,7 +48,7 @@ mesher::Mesh block_with_left() {
   return mesh;
 }
 
-/// The degrees of freedom of a free body that the options leave.
+/// Indices of a free body's degrees of freedom that remain free under the options.
 std::vector<Eigen::Index> free_directions(const mesher::Mesh& mesh, const ModalOptions& options) {
   const DofMap all(mesh, {});
   std::vector<bool> is_fixed(static_cast<std::size_t>(all.dof_count()));

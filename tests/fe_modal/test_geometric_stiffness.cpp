@@ -20,8 +20,8 @@ namespace {
 constexpr double kYoung = 7e10;
 constexpr double kLength = 1.0;
 
-/// A clamped beam along z without lateral contraction, so that the clamp adds nothing; residual
-/// modes of the tip load.
+/// A clamped beam along z without lateral contraction, so that the clamp adds no stiffness, with
+/// residual modes of the tip load.
 ModalBody beam(const Eigen::Vector2d& section_m, std::array<int, 3> divisions, int count) {
   const mesher::Mesh mesh =
       testing::box(divisions, {section_m.x(), section_m.y(), kLength}, {"light", kYoung, 0, 2700})
@@ -46,8 +46,9 @@ double buckling_load(const ModalBody& body, const Eigen::MatrixXd& geometric) {
   return -1 / testing::symmetric_eigenvalues(scaled)[0];
 }
 
-/// int (L^2 - z^2) / 2 phi'^2 dz over int phi^2 dz of a beam's n-th mode: how much the square of
-/// its frequency rises with the square of the spin about an axis through the root.
+/// Southwell's coefficient int (L^2 - z^2) / 2 phi'^2 dz over int phi^2 dz of a beam's n-th mode:
+/// ratio of the rise of its squared frequency to the squared rate of spin about an axis through the
+/// root.
 double southwell(std::size_t n) {
   const auto [points, weights] = testing::gauss_rule(40);
   double sum = 0;
@@ -58,7 +59,8 @@ double southwell(std::size_t n) {
   return sum;
 }
 
-/// int w_n'^2 from the root to z, of the mass-normalised n-th bending mode of an Euler beam.
+/// Shortening int w_n'^2 from the root to z, of the mass-normalised n-th bending mode of an Euler
+/// beam.
 double drawn(std::size_t n, double z, double mass) {
   const auto [points, weights] = testing::gauss_rule(40);
   double sum = 0;
@@ -69,10 +71,10 @@ double drawn(std::size_t n, double z, double mass) {
   return sum;
 }
 
-/// int rho psi_k . chi, chi drawing all sections towards the root as the n-th bending mode does:
-/// by the trapezoidal rule over the layers of nodes.
+/// Work int rho psi_k . chi, where chi moves all sections towards the root as the n-th bending mode
+/// does: by the trapezoidal rule over the layers of nodes.
 double work_on_drawing(const ModalBody& body, std::size_t k, std::size_t n, double mass) {
-  std::map<double, std::pair<double, int>> layers;  // height: sum of psi_z, nodes
+  std::map<double, std::pair<double, int>> layers;  // by height: sum of psi_z, number of nodes
   for (Eigen::Index i = 0; i < body.nodes_m.cols(); ++i) {
     auto& [sum, count] = layers[std::round(1e6 * body.nodes_m(2, i)) / 1e6];
     sum += body.shapes[k](2, i);
@@ -90,7 +92,7 @@ double work_on_drawing(const ModalBody& body, std::size_t k, std::size_t n, doub
   return mass / kLength * work;
 }
 
-/// A clamped stub without any symmetry, turned about in its axes.
+/// A clamped stub without any symmetry, rotated relative to its axes.
 ModalBody stub(mesher::ElementKind kind, Formulation formulation, const Eigen::Matrix3d& turn) {
   testing::BlockMesh block = testing::box({1, 1, 2}, {1, 1, 1}, {"plastic", 3e9, 0.4, 1200});
   block.position = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
@@ -112,7 +114,7 @@ ModalBody stub(mesher::ElementKind kind, Formulation formulation, const Eigen::M
   return analyse_modes(testing::with_kind(block.make(), kind), options, {});
 }
 
-/// The modes of a body on a turned one, which may have the opposite sign: a diagonal of +1 and -1.
+/// Signs of the modes of a body relative to those of the rotated body: a diagonal of +1 and -1.
 Eigen::VectorXd signs_of(const ModalBody& turned, const ModalBody& body,
                          const Eigen::Matrix3d& turn) {
   Eigen::VectorXd signs(body.mode_count());
@@ -123,26 +125,26 @@ Eigen::VectorXd signs_of(const ModalBody& turned, const ModalBody& body,
   return signs;
 }
 
-/// What of an array along x, y, z stands along an axis.
+/// Component along an axis of matrices for x, y, z.
 Eigen::MatrixXd along(const Eigen::Vector3d& axis, const std::vector<Eigen::MatrixXd>& matrices) {
   return axis.x() * matrices.at(0) + axis.y() * matrices.at(1) + axis.z() * matrices.at(2);
 }
 
-/// Under a spin, of the matrices for its products xx, yy, zz, xy, xz, yz.
+/// Geometric stiffness under a spin, from the matrices for its products xx, yy, zz, xy, xz, yz.
 Eigen::MatrixXd spun(const Eigen::Vector3d& w, const std::vector<Eigen::MatrixXd>& products) {
   return w.x() * w.x() * products.at(0) + w.y() * w.y() * products.at(1) +
          w.z() * w.z() * products.at(2) + w.x() * w.y() * products.at(3) +
          w.x() * w.z() * products.at(4) + w.y() * w.z() * products.at(5);
 }
 
-/// Modes are as exact as the eigensolver's tolerance.
+/// Relative error of the modes, from the eigensolver's tolerance.
 constexpr double kExact = 1e-7;
 
 double difference(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected) {
   return (found - expected).norm() / expected.norm();
 }
 
-/// Of matrices over the modes, some of which have the opposite sign.
+/// Difference of matrices over the modes, some of which have the opposite sign.
 double difference(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected,
                   const Eigen::VectorXd& signs) {
   return difference(found, signs.asDiagonal() * expected * signs.asDiagonal());
@@ -166,7 +168,7 @@ void check_inertia(const ModalBody& turned, const ModalBody& body, const Eigen::
   CHECK(difference(there.rotation, turn * tip.rotation * signs.asDiagonal()) < kExact);
 }
 
-/// @param there  the axis in the turned body
+/// @param there  the axis in the rotated body
 void check_stiffness(const GeometricStiffness& turned, const Eigen::Vector3d& there,
                      const GeometricStiffness& body, const Eigen::Vector3d& axis,
                      const Eigen::VectorXd& signs) {
@@ -186,13 +188,14 @@ void check_stiffness(const GeometricStiffness& turned, const Eigen::Vector3d& th
 
 TEST_CASE(
     "a spun beam stiffens by Southwell's coefficients, a pushed column buckles at Euler's load") {
-  // Thickness over length 1/50: shear and rotary inertia count for some (h/L)^2 b^2.
+  // Thickness over length is 1/50: shear and rotary inertia contribute some (h/L)^2 b^2.
   constexpr double kShear = 3e-3;
   const ModalBody body = beam({0.02, 0.03}, {1, 1, 12}, 6);
   REQUIRE(body.geometric_stiffness);
   const GeometricStiffness& geometric = *body.geometric_stiffness;
   CHECK(southwell(0) == Approx(1.193).margin(0.001));  // the textbooks' coefficient
-  // Spin about x: bending along x is the flapping of a blade, along y stays in the plane.
+  // For spin about x, bending along x is the flapping of a blade, bending along y is in the plane
+  // of rotation.
   for (const std::size_t n : {0U, 1U}) {
     for (const std::string kind : {"fore-aft", "lateral"}) {
       const Eigen::Index k = body.mode_index(kind + " bending " + std::to_string(n + 1));
@@ -206,11 +209,11 @@ TEST_CASE(
   const GeometricStiffness::OfInterface& tip = geometric.interfaces.at(0);
   CHECK(tip.name == "tip");
   CHECK(buckling_load(body, -tip.force[2]) == Approx(euler).epsilon(1e-3));
-  // Own weight: 7.837 EI / L^2 (Greenhill) is the critical weight.
+  // The critical weight is 7.837 EI / L^2 (Greenhill).
   const double weight = 7.837 * EI / (kLength * kLength);
   const double mass = 2700 * 0.02 * 0.03 * kLength;
   CHECK(buckling_load(body, geometric.acceleration[2]) == Approx(weight / mass).epsilon(2e-3));
-  // The inertia of the vector that moves the tip most along the axis is that of a stretched bar.
+  // The inertia of the vector with the largest axial motion of the tip is that of a stretched bar.
   Eigen::Index axial = 0;
   body.interface("tip").translation.row(2).cwiseAbs().maxCoeff(&axial);
   const Eigen::Index flap = body.mode_index("fore-aft bending 1");
@@ -221,18 +224,18 @@ TEST_CASE(
 }
 
 TEST_CASE("a deep cantilever under a tip load topples sideways at Prandtl's load") {
-  // Bent in its plane it is stressed by bending and shear, and by nothing else.
+  // Bending in its plane stresses the beam by bending and shear only.
   constexpr double kThickness = 0.01;
   constexpr double kDepth = 0.05;
-  // Twist wants a fine mesh: of 4 x 24 elements in the plane, one through the thickness, it is
-  // still 1.4 % high, of 2 x 6 x 40 0.12 %, of 2 x 8 x 48 -0.03 %.
+  // Torsion requires a fine mesh: with 4 x 24 elements in the plane, one through the thickness, the
+  // load is still 1.4 % high, with 2 x 6 x 40 0.12 %, with 2 x 8 x 48 -0.03 %.
   constexpr double kMesh = 2e-3;
   const ModalBody body = beam({kThickness, kDepth}, {2, 6, 40}, 12);
   const double EI = kYoung * kDepth * std::pow(kThickness, 3) / 12;
   const double torsion_constant =
       kDepth * std::pow(kThickness, 3) / 3 * (1 - 0.630 * kThickness / kDepth);
   const double GJ = kYoung / 2 * torsion_constant;
-  // The clamp keeps the root from warping: Timoshenko and Gere, Theory of Elastic Stability, 6.5.
+  // The clamp prevents warping of the root: Timoshenko and Gere, Theory of Elastic Stability, 6.5.
   const double warping = kYoung * std::pow(kThickness * kDepth, 3) / 144;
   const double held = 1 - std::sqrt(warping / GJ) / kLength;
   const double expected = 4.013 / (held * held) * std::sqrt(EI * GJ) / (kLength * kLength);

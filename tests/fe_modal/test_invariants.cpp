@@ -20,7 +20,8 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
   return result;
 }
 
-/// Boxes of two materials. Their Jacobian is constant: both rules of this test are exact.
+/// Boxes of two materials, with constant Jacobians, for which both quadrature rules of this test
+/// are exact.
 mesher::Mesh sandwich() {
   testing::BlockMesh block = testing::box({2, 1, 3}, {0.2, 0.1, 0.3}, {});
   block.slices = {{"plate", 1, {"steel", 2.1e11, 0.3, 7850}},
@@ -46,7 +47,7 @@ struct DeformedBody {
   Eigen::Matrix<double, kModes, kModes> Maa = Eigen::Matrix<double, kModes, kModes>::Zero();
 };
 
-/// By quadrature over the undeformed volume with the deformed positions s = s0 + psi a.
+/// Integrates by quadrature over the undeformed volume with the deformed positions s = s0 + psi a.
 DeformedBody integrate(const mesher::Mesh& mesh, const std::vector<Eigen::Matrix3Xd>& shapes,
                        const Eigen::Vector3d& a) {
   const mesher::Quadrature rule = mesher::gauss_rule(mesher::ElementKind::hex27, 4);
@@ -128,8 +129,8 @@ TEST_CASE("the gradients of the inertia, which act as forces, are those of the d
   for (std::size_t j = 0; j < kModes; ++j) {
     for (std::size_t l = 0; l < kModes; ++l) {
       const std::size_t jl = j * kModes + l;
-      // -~p ~q = (p.q) I - q p^T: twice its axial vector is p x q, which the J of a deformed body
-      // does not hold but N does.
+      // -~p ~q = (p.q) I - q p^T: twice its axial vector is p x q, which N contains, but not the J
+      // of a deformed body.
       const Eigen::Matrix3d& G = found.G[jl];
       const Eigen::Vector3d axial(G(2, 1) - G(1, 2), G(0, 2) - G(2, 0), G(1, 0) - G(0, 1));
       CHECK((axial + found.N[jl]).norm() < kRounding);
@@ -149,7 +150,7 @@ TEST_CASE("a box without modes has the mass properties of a box") {
   const double mass = 7850 * size.prod();
   CHECK(found.mass == Approx(mass).epsilon(kRounding));
   CHECK((found.S1 - mass * Eigen::Vector3d(0, 0, 0.15)).norm() < kRounding * mass);
-  // about the origin: the middle of the bottom
+  // The moments of inertia are about the origin, the middle of the bottom.
   const Eigen::Vector3d expected(mass * (0.01 / 12 + 0.09 / 3), mass * (0.04 / 12 + 0.09 / 3),
                                  mass * (0.04 + 0.01) / 12);
   CHECK((found.J0 - Eigen::Matrix3d(expected.asDiagonal())).norm() < kRounding * mass);

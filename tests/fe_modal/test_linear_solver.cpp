@@ -18,7 +18,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// While it lives the process may take so much more memory alone.
+/// Limits the memory that the process may take in addition while it lives.
 class AddressLimit {
  public:
   explicit AddressLimit(double more_bytes) {

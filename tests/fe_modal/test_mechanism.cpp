@@ -16,9 +16,9 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-constexpr double kHeight = 0.1;  // of the joint
+constexpr double kHeight = 0.1;  // height of the joint
 
-/// A pin on a post, which hang together where `bonded` says so.
+/// A pin on a post, joined at the positions for which `bonded` is true.
 mesher::Mesh post_and_pin(const std::function<bool(const Eigen::Vector3d&)>& bonded) {
   const mesher::Material steel{"steel", 2.1e11, 0.3, 7850};
   testing::BlockMesh block = testing::box({2, 2, 1}, {0.1, 0.1, 2 * kHeight}, {});
@@ -51,7 +51,7 @@ TEST_CASE("a hinge is named with its part and its axis, fixed or free") {
              Contains("mechanism: part 'pin' turns freely about y through (0.05, 0, 0.1) m;"));
   CHECK_THAT(refusal(mesh, "top"),
              Contains("mechanism: part 'post' turns freely about y through (0.05, 0, 0.1) m;"));
-  // The pin of brass is heavier, so the post moves against it.
+  // The pin of brass is heavier, so the post moves relative to it.
   CHECK_THAT(refusal(mesh, ""), Contains("part 'post' turns freely about y"));
 }
 
@@ -65,7 +65,7 @@ TEST_CASE("a part that hangs by a point, or by nothing, is named") {
 }
 
 TEST_CASE("nodes a little off the axis of a hinge hold the body, as the square of their distance") {
-  // As in a file with rounded coordinates.
+  // Such deviations occur in a file with rounded coordinates.
   const auto frequency_Hz = [](double off_axis_m) {
     testing::BlockMesh box =
         testing::box({2, 1, 2}, {0.1, 0.02, 0.2}, {"steel", 2.1e11, 0.3, 7850});

@@ -37,8 +37,9 @@ void move_nodes(mesher::Mesh& mesh, const Field& position) {
   }
 }
 
-/// Hexahedra beside prisms and, on top of these, tetrahedra; over the hexahedra there is nothing,
-/// for there a quadrilateral would meet two triangles. The unit cube without that quarter.
+/// Hexahedra beside prisms and, on top of these, tetrahedra; the space over the hexahedra is empty,
+/// as a quadrilateral would meet two triangles there. The body is the unit cube without that
+/// quarter.
 mesher::Mesh three_families(ElementKind hexahedron, ElementKind prism, const Field& position,
                             const mesher::Material& material) {
   testing::BlockMesh block = testing::box({4, 2, 4}, {1, 1, 1}, material);
@@ -52,7 +53,7 @@ mesher::Mesh three_families(ElementKind hexahedron, ElementKind prism, const Fie
   return mesh;
 }
 
-/// A row of three cells: a hexahedron, pyramids on its side, tetrahedra on those.
+/// A row of three cells: a hexahedron, pyramids on its side, tetrahedra on these.
 mesher::Mesh row_with_pyramids(ElementKind hexahedron, ElementKind pyramid, ElementKind tetrahedron,
                                const Field& position, const mesher::Material& material) {
   testing::BlockMesh block = testing::box({3, 1, 1}, {1, 1, 1}, material);
@@ -137,7 +138,7 @@ Eigen::Vector3d linear_field(const Eigen::Vector3d& x) {
   return gradient * x + Eigen::Vector3d(0.1, -0.2, 0.3);
 }
 
-/// distorted(), but linear along each edge of 2 x 2 x 2 elements.
+/// Position as in distorted(), but linear along each edge of 2 x 2 x 2 elements.
 Eigen::Vector3d straight_edged(const Eigen::Vector3d& p) {
   const Eigen::Vector3d cell = (2 * p).array().floor().min(1.0);
   const Eigen::Vector3d local = 2 * p - cell;
@@ -173,8 +174,8 @@ TEST_CASE("patch test: elements of all kinds, curved and mixed, reproduce every 
 }
 
 TEST_CASE("patch test: reduced 20-node hexahedra need straight edges") {
-  // Two points a direction integrate the gradients of straight-edged elements exactly, not those of
-  // curved ones.
+  // Two points per direction integrate the gradients of straight-edged elements exactly, not those
+  // of curved ones.
   constexpr double kRounding = 1e-11;
   const mesher::Mesh straight = cube_of(ElementKind::hex20, straight_edged, kSteel);
   CHECK(patch_error(straight, Formulation::reduced, linear_field) < kRounding);
@@ -185,8 +186,8 @@ TEST_CASE("patch test: reduced 20-node hexahedra need straight edges") {
 }
 
 TEST_CASE("patch test of second order: sheared quadratic elements reproduce pure bending") {
-  // sigma_xx = E z, all else zero: u = (x z, -nu y z, (-x^2 + nu (y^2 - z^2)) / 2). Its divergence
-  // is linear: of the mixed elements the one with linear pressures has it.
+  // The field is sigma_xx = E z, all else zero: u = (x z, -nu y z, (-x^2 + nu (y^2 - z^2)) / 2).
+  // Its divergence is linear: among the mixed elements the one with linear pressures contains it.
   constexpr double kRounding = 1e-10;
   const auto skewed = [](const Eigen::Vector3d& p) -> Eigen::Vector3d {
     Eigen::Matrix3d axes;
@@ -223,8 +224,8 @@ TEST_CASE("patches of every kind resist all but the six rigid motions") {
 
 TEST_CASE(
     "hourglass motions of reduced 20-node hexahedra: six alone, some in a row, none abreast") {
-  // A single row keeps three or four. With two elements in two directions there is none: use no
-  // fewer.
+  // A single row keeps three or four such motions. Blocks with two elements in two directions have
+  // none, and fewer should not be used.
   const auto block = [](std::array<int, 3> divisions) {
     return testing::with_kind(testing::box(divisions, {1, 1, 1}, kSteel).make(),
                               ElementKind::hex20);
@@ -237,7 +238,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a part of several kinds has the mass, centre and inertia of its volume") {
-  // The unit cube less the quarter x < 1/2, z > 1/2: two boxes.
+  // The body is the unit cube less the quarter x < 1/2, z > 1/2.
   constexpr double kRounding = 1e-12;
   const auto identity = [](const Eigen::Vector3d& p) { return p; };
   const mesher::Mesh mesh =
@@ -247,7 +248,8 @@ TEST_CASE("a part of several kinds has the mass, centre and inertia of its volum
   const double rho = kSteel.density_kg_m3;
   CHECK(part.gram()(0, 0) == Approx(0.75 * rho).epsilon(kRounding));
   CHECK((part.point_m() - Eigen::Vector3d(3.5 / 6, 0.5, 2.5 / 6)).norm() < kRounding);
-  // About the centre, theta_y: boxes 1/2 x 1 x 1/2 with centres (1/4, 1/4), (3/4, 1/4), (3/4, 3/4).
+  // The moment of inertia about y through the centre is that of boxes 1/2 x 1 x 1/2 with centres
+  // (1/4, 1/4), (3/4, 1/4), (3/4, 3/4).
   double inertia = 0;
   for (const auto& [x, z] : {std::pair{0.25, 0.25}, {0.75, 0.25}, {0.75, 0.75}}) {
     inertia +=
@@ -260,14 +262,15 @@ TEST_CASE("a part of several kinds has the mass, centre and inertia of its volum
 }
 
 TEST_CASE("an average over faces of several kinds is that of the whole face") {
-  // The lower side: quad8 of the hexahedra, tri6 of the prisms.
+  // The lower side consists of quad8 of the hexahedra and tri6 of the prisms.
   const auto identity = [](const Eigen::Vector3d& p) { return p; };
   const mesher::Mesh mesh =
       three_families(ElementKind::hex20, ElementKind::prism15, identity, kSteel);
   const mesher::FaceSet& bottom = mesh.face_set("bottom");
   REQUIRE(bottom.blocks.size() == 2);
   const RigidAverage face(mesh, bottom, {0.5, 0.5, 0});
-  // u = (x^2, 0, x y): mean of x^2 is 1/3; the slope of x y is that of its plane x/2 + y/2 - 1/4.
+  // For u = (x^2, 0, x y) the mean of x^2 is 1/3; the slope of x y is that of its plane x/2 + y/2 -
+  // 1/4.
   const auto n = static_cast<Eigen::Index>(mesh.nodes.size());
   Eigen::Matrix3Xd field(3, n);
   for (Eigen::Index k = 0; k < n; ++k) {
@@ -280,7 +283,8 @@ TEST_CASE("an average over faces of several kinds is that of the whole face") {
 }
 
 TEST_CASE("frequencies of a bar of three families bound those of a finer bar from above") {
-  // Held on the lower side. Rayleigh's principle: displacements of a conforming mesh are too stiff.
+  // The bar is fixed on the lower side. By Rayleigh's principle displacements of a conforming mesh
+  // are too stiff.
   constexpr double kCoarse = 3e-2;
   ModalOptions options;
   options.formulation.of_others = Formulation::displacement;

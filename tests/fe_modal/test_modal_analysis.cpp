@@ -35,7 +35,7 @@ double frequency(const ModalBody& body, const std::string& name) {
 
 /// Euler's first cantilever frequency in Hz.
 double euler_cantilever(double young, double density, double side, double length) {
-  constexpr double kRoot = 1.8751040687119611;  // cos cosh = -1
+  constexpr double kRoot = 1.8751040687119611;  // root of cos cosh = -1
   return kRoot * kRoot / (2 * std::numbers::pi) *
          std::sqrt(young * side * side / 12 / (density * std::pow(length, 4)));
 }
@@ -53,8 +53,9 @@ double lowest_frequency(const mesher::Mesh& mesh, Formulation formulation) {
 
 TEST_CASE("a slender cantilever bends at Euler's frequency less shear and rotary inertia") {
   // Rayleigh's correction of the first mode, with int phi'^2 / int phi^2 = 4.648 / L^2 (by symmetry
-  // the same for the shear force over the moment): -4.648/2 (r/L)^2 (1 + E/kG), r^2 = h^2/12. With
-  // nu = 0, k = 5/6, L/h = 20: -0.165 %. Left over: its own second order and the mesh.
+  // the same for the shear force over the moment), is -4.648/2 (r/L)^2 (1 + E/kG), r^2 = h^2/12.
+  // With nu = 0, k = 5/6, L/h = 20 it is -0.165 %. The remaining error is its own second order and
+  // the mesh.
   constexpr double kTolerance = 5e-5;
   constexpr double kSide = 0.02, kLength = 0.4;
   const mesher::Material material{"steel", 2.1e11, 0, 7850};
@@ -68,9 +69,9 @@ TEST_CASE("a slender cantilever bends at Euler's frequency less shear and rotary
 }
 
 TEST_CASE("a round tube twists and stretches at the frequencies of waves in a rod") {
-  // Held at one end: sqrt(G / rho) / 4 L for twist, without warping in a round section;
-  // sqrt(E / rho) / 4 L for stretch with nu = 0. Expected deviation of twist: none but the mesh, of
-  // stretch the same. The wall is thick and the tube short, so that bending does not get between.
+  // The tube is fixed at one end: sqrt(G / rho) / 4 L for torsion, without warping in a round
+  // section; sqrt(E / rho) / 4 L for stretch with nu = 0. The only expected deviation is that of
+  // the mesh. The wall is thick and the tube short, so that no bending modes come between.
   constexpr double kTolerance = 1e-5;
   constexpr double kLength = 0.3;
   const mesher::Material material{"steel", 2.1e11, 0, 7850};
@@ -90,7 +91,7 @@ TEST_CASE("a free block has six zero frequencies and the inertia of a block") {
   CHECK(body.boundary == "free");
   CHECK(body.frequencies_Hz.head(6).maxCoeff() < 1e-4 * body.frequencies_Hz[6]);
   CHECK(body.frequencies_Hz[6] > 1000);
-  // Each of the six moves rigidly: its strain energy is nothing, and together they carry all of the
+  // Each of the six modes is rigid: its strain energy is zero, and together they carry all of the
   // block's linear momentum: sum of S2 S2^T = mass I.
   const Eigen::Matrix3d momentum =
       body.invariants.S2.leftCols<6>() * body.invariants.S2.leftCols<6>().transpose();
@@ -110,7 +111,7 @@ TEST_CASE("frequencies scale with stiffness, size and density, to the last bit")
     return analyse_modes(mesh, fixed_at_bottom(5, 0.1 * length), {}).frequencies_Hz;
   };
   const Eigen::VectorXd base = frequencies(8e6, 1, 1000);
-  constexpr double kRounding = 1e-12;  // left for a library that scales by something of its own
+  constexpr double kRounding = 1e-12;  // tolerance for a library that applies a scale of its own
   const auto difference = [&](const Eigen::VectorXd& found, double factor) {
     return ((found - factor * base).array() / (factor * base).array()).abs().maxCoeff();
   };
@@ -120,9 +121,10 @@ TEST_CASE("frequencies scale with stiffness, size and density, to the last bit")
 }
 
 TEST_CASE("rubber bonded to a plate does not lock at a Poisson's ratio of 0.49") {
-  // A flat pad fixed below and bonded to a steel plate above, which rocks on it. Twice as many
-  // elements in each direction change the mixed frequency by less than 0.1 % and 0.2 % is asked;
-  // the displacement formulation starts 2.9 % too high and comes down towards the same value.
+  // The pad is flat, fixed below and bonded to a steel plate above, which rocks on it. Twice as
+  // many elements in each direction change the mixed frequency by less than 0.1 % and 0.2 % is
+  // required; the displacement formulation starts 2.9 % too high and converges towards the same
+  // value from above.
   constexpr double kTolerance = 2e-3;
   constexpr double kLocked = 2e-2;
   const auto pad = [](int refinement) {
@@ -182,7 +184,7 @@ TEST_CASE("what rounding takes from a frequency near Poisson's ratio 1/2 is know
   const auto solved = [&](double poissons_ratio) {
     return analyse_modes(bar(poissons_ratio), fixed_at_bottom(1, 0.5), {});
   };
-  // The frequency is analytic in 1 - 2 nu: from these two the limit follows to 1e-8.
+  // The frequency is analytic in 1 - 2 nu: these two values give the limit to 1e-8.
   const ModalBody soft = solved(0.499);
   CHECK(rounding_error(bar(0.499), {}, soft) < 1e-6);
   const double limit = (10 * solved(0.4999).frequencies_Hz[0] - soft.frequencies_Hz[0]) / 9;

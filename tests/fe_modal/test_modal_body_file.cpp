@@ -22,7 +22,7 @@ namespace {
 
 using testing::bytes_of;
 
-/// A body in which no two numbers are alike, so that an exchange shows.
+/// A body in which no two numbers are equal, so that an exchange is detected.
 ModalBodyFile sample() {
   ModalBodyFile file;
   file.body = testing::make_point_mass_body(11, 3).body;
@@ -52,7 +52,7 @@ void check_same(const InertiaInvariants& found, const InertiaInvariants& expecte
   CHECK(found.Maa == expected.Maa);
 }
 
-/// A static response that has what the modes have of it, and a little more.
+/// Adds a static response with the compliance of the modes and a little more.
 void add_response(const ModalBody& body, Interface& interface) {
   StaticResponse response{0.01 * Eigen::Matrix<double, 6, 6>::Identity(),
                           0.01 * Eigen::Matrix<double, 6, 6>::Identity()};
@@ -66,7 +66,7 @@ void add_response(const ModalBody& body, Interface& interface) {
   interface.response = response;
 }
 
-/// Point masses that nothing holds: six rigid motions, mass-orthonormal.
+/// Point masses without supports: six rigid motions, mass-orthonormal.
 ModalBodyFile free_sample() {
   constexpr Eigen::Index kMotions = 6;
   ModalBodyFile file;
@@ -84,7 +84,7 @@ ModalBodyFile free_sample() {
     const auto motions = motions_at(body.nodes_m.col(n));
     mass += points.masses_kg[n] * motions.transpose() * motions;
   }
-  // M = U^T U: the columns of U^-1 are mass-orthonormal.
+  // With M = U^T U the columns of U^-1 are mass-orthonormal.
   const Eigen::MatrixXd orthonormal =
       mass.llt().matrixU().solve(Eigen::MatrixXd::Identity(kMotions, kMotions));
   const Eigen::Vector3d tip(0.1, -0.2, 0.3);
@@ -188,7 +188,7 @@ TEST_CASE("what breaks an identity of every modal body is refused by its dataset
       {"/invariants/J0: expected that [1, 0]",
        [](ModalBody& b) { b.invariants.J0(0, 1) += 1e-11 * b.invariants.J0(0, 0); }},
       {"/invariants/J0", [](ModalBody& b) { b.invariants.J0 *= -1; }},
-      // A plate has no more than the sum of the other two about its normal.
+      // The moment of inertia about the normal of a plate is at most the sum of the other two.
       {"/invariants/J0", [](ModalBody& b) { b.invariants.J0(2, 2) += b.invariants.J0.trace(); }},
       {"/invariants/J0", [](ModalBody& b) { b.invariants.S1 *= 4; }},
       {"/invariants/G: expected that half the trace of [0, 0]",
@@ -265,7 +265,7 @@ TEST_CASE("modes of kind rigid have the frequency zero and move as a rigid body"
        [](ModalBody& b) { b.interfaces[1].rotation(0, 5) += 1e-2; }},
       {"/invariants/S2: expected that rigid mode 0",
        [](ModalBody& b) { b.invariants.mass *= 1.01; }},
-      // Nothing else tells of a fixed body that its moments of inertia are too large.
+      // No other identity of a fixed body shows that its moments of inertia are too large.
       {"/invariants/N0: expected that rigid mode", [](ModalBody& b) { b.invariants.J0 *= 1.01; }},
   };
   for (const auto& [dataset, damage] : cases) {

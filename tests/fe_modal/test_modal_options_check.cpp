@@ -36,7 +36,7 @@ ModalOptions sound_options() {
   return options;
 }
 
-/// Expects that the options, spoilt, are refused with a message that holds the text.
+/// Checks that the options, once spoilt, are refused with a message that contains the text.
 void check_refused(const std::function<void(ModalOptions&)>& spoil, const std::string& text) {
   ModalOptions options = sound_options();
   spoil(options);
@@ -126,7 +126,7 @@ TEST_CASE("each material has its formulation, and one that locks is warned of") 
   CHECK_THAT(warnings[0], Catch::Contains("'rubber' with Poisson's ratio 0.49"));
   for (const auto kind : {mesher::ElementKind::tet4, mesher::ElementKind::pyramid5}) {
     const auto linear = locking_warnings(testing::with_kind(mesh, kind), {});
-    REQUIRE(linear.size() == 2);  // parts
+    REQUIRE(linear.size() == 2);  // one line for each part
     CHECK_THAT(linear[0], Catch::Contains("part 'pad' has elements of kind " +
                                           std::string(mesher::name_of(kind))));
   }
@@ -158,7 +158,8 @@ TEST_CASE(
 }
 
 TEST_CASE("what an analysis takes is estimated within a fifth of what was measured") {
-  // Degrees of freedom and GB of necks of 27-node hexahedra, tests/benchmarks/README.md.
+  // The data are degrees of freedom and GB of necks of 27-node hexahedra,
+  // tests/benchmarks/README.md.
   const std::vector<std::pair<double, double>> measured_GB = {
       {11868, 0.15}, {26388, 0.27}, {64344, 0.72}, {191388, 2.6}};
   for (const auto& [dofs, measured] : measured_GB)
@@ -168,7 +169,8 @@ TEST_CASE("what an analysis takes is estimated within a fifth of what was measur
 }
 
 TEST_CASE("the finer mesh of a check is refused where it does not fit") {
-  // Half of what is free: eight times the degrees of freedom take eight times as much besides.
+  // The mesh takes half of the free memory; eight times the degrees of freedom take eight times as
+  // much.
   const double per_dof = memory_needs(1e6, 10).assembling / 1e6;
   mesher::Mesh mesh;
   mesh.nodes.resize(static_cast<std::size_t>(available_memory() / (2 * 3 * per_dof)));

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kLength = 0.8;
 
-/// A bar fixed at the bottom, its motion seen at the top.
+/// A bar fixed at the bottom, with its motion observed at the top.
 ModalBody bar(const Eigen::Vector2d& section, double turned_rad = 0) {
   testing::BlockMesh block = testing::box({2, 2, 4}, {section[0], section[1], kLength}, kSteel);
   const auto straight = block.position;
@@ -34,8 +34,8 @@ ModalBody bar(const Eigen::Vector2d& section, double turned_rad = 0) {
 }  // namespace
 
 TEST_CASE("the exactly double bending of a square bar is turned to the axes") {
-  // Turned by any angle about its axis the bar stays double, so its modes must still follow x and
-  // y.
+  // Rotated by any angle about its axis the bar still has double frequencies, so its modes must
+  // follow x and y.
   constexpr double kPure = 1e-6;
   for (const double angle : {0.0, 0.3}) {
     const ModalBody body = bar({0.05, 0.05}, angle);
@@ -53,7 +53,7 @@ TEST_CASE("the exactly double bending of a square bar is turned to the axes") {
 }
 
 TEST_CASE("a pair that is not double keeps its own axes") {
-  // 5 % between the frequencies: the principal axes of the section stand, turned as they are.
+  // The frequencies are 5 % apart: modes follow the principal axes of the section, rotated with it.
   constexpr double kAngle = 0.3;
   const ModalBody body = bar({0.05, 0.0525}, kAngle);
   const Interface& tip = body.interface("tip");

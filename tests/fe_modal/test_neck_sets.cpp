@@ -20,8 +20,8 @@ namespace {
 constexpr double kInch = 0.0254;
 constexpr double kPound = 0.45359237;
 
-/// Modes at default divisions, with the head of the Hybrid III on top: 9.921 lb, 2.00 in above
-/// and 0.55 in ahead of the joint point, inertia in lbf s^2 in about its centre.
+/// Modes at default divisions, with the head of the Hybrid III on top: 9.921 lb, 2.00 in above and
+/// 0.55 in ahead of the joint point, inertia in lbf s^2 in about its centre.
 ModalBody neck(const std::string& set, int mode_count = 10,
                mesher::ElementKind element = mesher::ElementKind::hex27) {
   constexpr double kInertiaUnit = 4.4482216152605 * kInch;
@@ -42,8 +42,8 @@ ModalBody neck(const std::string& set, int mode_count = 10,
   return analyse_modes(mesher::mesh_script(mesh, {}), options, {});
 }
 
-/// Compares by name with converged frequencies (two independent solvers, other elements and
-/// meshes).
+/// Compares frequencies, by the modes' names, with converged ones (two independent solvers, other
+/// elements and meshes).
 void check_frequencies(const ModalBody& body, double tolerance,
                        const std::map<std::string, double>& converged) {
   for (const auto& [name, expected] : converged) {
@@ -53,7 +53,7 @@ void check_frequencies(const ModalBody& body, double tolerance,
   }
 }
 
-/// By symmetry fore-aft motion does not mix with lateral motion and twist.
+/// Checks that fore-aft motion does not mix with lateral motion and twist, by symmetry.
 void check_planes(const ModalBody& body) {
   constexpr double kNone = 1e-6;  // per cent
   for (const ModeRecord& mode : body.modes) {
@@ -67,15 +67,16 @@ void check_planes(const ModalBody& body) {
       0.1);
 }
 
-/// Share of the compliance at the top that some modes have, translation under force and rotation
+/// Fraction of the compliance at the top that some modes have, translation under force and rotation
 /// under moment.
 Eigen::VectorXd captured(const ModalBody& body, const std::vector<std::string>& modes) {
   return basis_table(select_modes(body, modes)).compliance.at(0).percent.bottomRows<1>() / 100;
 }
 
-/// Geometry study section 4, set A: ux/Fx, thy/My, thx/Mx, thz/Mz, uz/Fz. The study took 20-node
-/// elements on a mesh of its own: its figures lie between ours of that element, which is the
-/// coarser one, and of the 27-node element.
+/// Checks the fractions of compliance of the geometry study, section 4, set A: ux/Fx, thy/My,
+/// thx/Mx, thz/Mz, uz/Fz. The study used 20-node elements on a mesh of its own: its figures lie
+/// between those found here with that element, which is the coarser one, and with the 27-node
+/// element.
 void check_compliance_table(const ModalBody& coarse, const ModalBody& fine) {
   const auto lowest = [&](Eigen::Index count) {
     std::vector<std::string> names = names_of(fine.modes);
@@ -99,14 +100,15 @@ void check_compliance_table(const ModalBody& coarse, const ModalBody& fine) {
       const double low = std::min(of_coarse[kDirections[i]], of_fine[kDirections[i]]);
       const double high = std::max(of_coarse[kDirections[i]], of_fine[kDirections[i]]);
       CAPTURE(modes.size(), i, low, high, expected[i]);
-      const double digit = expected[i] > 0.999 ? 0.00005 : 0.0005;  // half of the last one printed
+      // Half of the last printed digit.
+      const double digit = expected[i] > 0.999 ? 0.00005 : 0.0005;
       CHECK(low - digit <= expected[i]);
       CHECK(expected[i] <= high + digit);
     }
   }
 }
 
-/// How far above the finite element frequencies the row of the study is, in per cent.
+/// Excess over the finite element frequencies in a row of the study, in per cent.
 Eigen::VectorXd percent_high(const ModalBody& body, const std::string& kept, bool corrected) {
   const AttachedFrequencies& exact = body.attached.at(0);
   for (const ModeCountRow& row : mode_count_study(body, exact)) {
@@ -134,7 +136,8 @@ TEST_CASE("set A meets its converged frequencies and the study's compliances") {
   CHECK(body.invariants.mass / kPound == Approx(3.15).epsilon(0.002));
   CHECK(body.attached.at(0).frequencies_Hz[0] == Approx(6.99).epsilon(0.005));
   check_compliance_table(neck("A", 20, mesher::ElementKind::hex20), body);
-  // Geometry study section 4: four bending modes 2-4 % high, two with residual modes exact.
+  // The geometry study, section 4, has four bending modes 2-4 % high, two with residual modes
+  // exact.
   const Eigen::VectorXd high = percent_high(body, "4 bending", false);
   CHECK(high.head(2).minCoeff() > 2);
   CHECK(high.head(2).maxCoeff() < 4);
@@ -169,7 +172,7 @@ TEST_CASE("set C meets its converged frequencies, the weight and the system freq
   check_planes(body);
   CHECK(body.invariants.mass / kPound == Approx(2.668).epsilon(0.03));
   CHECK(std::abs(body.attached.at(0).frequencies_Hz[0] - 4.98) < 0.05);
-  // 5.20 Hz with four bending modes; the study's mesh was another one.
+  // The study has 5.20 Hz with four bending modes, on another mesh.
   const double high = percent_high(body, "4 bending", false)[0];
   CHECK(body.attached.at(0).frequencies_Hz[0] * (1 + high / 100) == Approx(5.20).epsilon(0.005));
   CHECK(percent_high(body, "2", true).head(3).cwiseAbs().maxCoeff() < 0.005);

@@ -31,7 +31,7 @@ TEST_CASE("options of PETSc and SLEPc that are chosen hold, and change no result
   const Eigen::VectorXd found_Hz =
       modes_with("-st_mat_mumps_icntl_14 60", Solver::mumps).frequencies_Hz;
   CHECK((found_Hz - plain_Hz).cwiseAbs().maxCoeff() < 1e-9 * plain_Hz[0]);
-  // One restart is not enough for so tight a space.
+  // One restart is not enough for such a small space.
   CHECK_THROWS_AS(modes_with("-eps_ncv 5 -eps_max_it 1"), ComputationError);
 }
 
@@ -47,7 +47,7 @@ TEST_CASE("options of PETSc that change what is solved, or that nothing asks for
 
 TEST_CASE(
     "options by which something else is solved than the stiffness are not obeyed in silence") {
-  // Half of K^-1 has eigenvalues twice those of K.
+  // The solver applies half of K^-1, whose eigenvalues are twice those of K.
   CHECK_THROWS_WITH(modes_with("-st_ksp_type richardson -st_ksp_richardson_scale 0.5 "
                                "-st_ksp_norm_type none -st_ksp_max_it 1"),
                     Catch::Contains("change modes.petsc_options"));

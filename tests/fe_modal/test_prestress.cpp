@@ -15,14 +15,15 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-// Half of a column, pinned at the top, with its plane of symmetry at the bottom; without lateral
-// contraction it is stressed uniformly.
+// The model is half of a column, pinned at the top, with its plane of symmetry at the bottom;
+// without lateral contraction the stress is uniform.
 constexpr double kYoung = 7e10;
 constexpr double kDensity = 2700;
-constexpr double kLength = 1.0;  ///< of the whole column
+constexpr double kLength = 1.0;  ///< length of the whole column
 constexpr double kThickness = 0.01;
 constexpr double kDepth = 0.03;
-/// Shear and rotary inertia: (pi h / L)^2 / 12 times the order of one.
+/// Relative effect of shear and rotary inertia: (pi h / L)^2 / 12 times a factor of the order of
+/// one.
 constexpr double kSlender = 4e-4;
 
 mesher::Mesh half_column() {
@@ -37,6 +38,7 @@ mesher::Mesh half_column() {
   return mesh;
 }
 
+/// Options of the column under an axial force.
 /// @param force_N tension positive
 ModalOptions column_under(double force_N) {
   ModalOptions options;
@@ -77,7 +79,7 @@ TEST_CASE(
   const auto factor = buckling_factor(pushed);
   REQUIRE(factor);
   CHECK(*factor == Approx(1).epsilon(kSlender));
-  // f = f0 sqrt(1 - P / Pcr): both are of the same half wave.
+  // In f = f0 sqrt(1 - P / Pcr) both f0 and Pcr are for the same half wave.
   const double critical = *factor * euler;
   for (const double share : {-100.0, -1.0, 0.5, 0.99}) {
     CAPTURE(share);

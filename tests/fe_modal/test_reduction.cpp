@@ -19,9 +19,9 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// What the issue asks of the captured compliance.
+/// Required relative accuracy of the captured compliance.
 constexpr double kCompliance = 1e-8;
-/// Two solutions of the same small problem in double precision.
+/// Relative difference of two solutions of the same small problem in double precision.
 constexpr double kSame = 1e-9;
 const Eigen::Vector3d kTip(0.01, -0.02, 0.32);
 const Eigen::Vector3d kRoot(0.02, 0.01, 0);
@@ -78,7 +78,7 @@ Dense dense_model(const std::vector<std::int32_t>& fixed_nodes, const std::strin
 
 Dense fixed_model() { return dense_model(block().node_set("bottom").nodes, "top", kTip); }
 
-/// Compliance that a body's modes have at an interface.
+/// Compliance of a body's modes at an interface.
 Matrix6d captured(const ModalBody& body, const std::string& interface) {
   const Interface& where = body.interface(interface);
   Eigen::MatrixXd motions(6, body.mode_count());
@@ -114,14 +114,14 @@ TEST_CASE("modes with residual modes have the compliance of direct static soluti
   CHECK(count_of(body, kResidualMode) == 6);
   CHECK(body.modes[3].name == "residual 1");
   check_basis(body);
-  // Without them much is missing, and the response tells how much.
+  // Without residual modes much of the compliance is missing, and the response shows how much.
   const ModalBody plain = analyse_modes(block(), fixed(BasisKind::normal, 3), {});
   REQUIRE(plain.mode_count() == 3);
   CHECK(difference(captured(plain, "tip"), exact) > 0.1);
   const StaticResponse& response = *plain.interface("tip").response;
   CHECK(difference(response.compliance, exact) < kCompliance);
   CHECK(difference(response.mass, shapes.transpose() * model.mass * shapes) < kCompliance);
-  // A correction is no eigenvector, a mode is.
+  // A mode is an eigenvector, a correction is not.
   CHECK(body.modes[2].residual < 1e-6);
   CHECK(body.modes[3].residual > 1e-3);
 }
@@ -137,7 +137,7 @@ TEST_CASE("a Craig-Bampton basis is that of the textbook's dense matrices") {
   CHECK(count_of(body, kConstraintMode) == 6);
   check_basis(body);
 
-  // Modes on the null space of C, with the constraint modes.
+  // The expected basis is the modes on the null space of C, with the constraint modes.
   const Eigen::MatrixXd inside = testing::null_space(model.average);
   const testing::DensePairs fixed = testing::dense_pairs(
       inside.transpose() * model.stiffness * inside, inside.transpose() * model.mass * inside);
@@ -178,7 +178,7 @@ TEST_CASE("correction modes that others hold already are dropped and told of") {
       return line.find(text) != std::string::npos;
     });
   };
-  // The same face twice.
+  // The second interface is on the same face.
   ModalOptions options = fixed(BasisKind::residual, 3);
   options.interfaces.push_back({"twin", "top", {0, 0, 0}});
   ModalBody body = analyse_modes(block(), options, record);
@@ -190,7 +190,7 @@ TEST_CASE("correction modes that others hold already are dropped and told of") {
   body = analyse_modes(block(), options, record);
   CHECK(count_of(body, kResidualMode) == 6);
   CHECK_FALSE(told("dropped"));
-  // All modes there are.
+  // The basis has all modes of the model.
   options = fixed(BasisKind::residual, 108);
   body = analyse_modes(block(), options, record);
   CHECK(count_of(body, kResidualMode) == 0);
@@ -210,7 +210,7 @@ TEST_CASE("the study of mode counts is what bodies with so many modes and residu
     CAPTURE(row.kept);
     options = fixed(BasisKind::residual, std::stoi(row.kept));
     const ModalBody few = analyse_modes(block(), options, {});
-    // Its own vectors, residual ones among them.
+    // The motions are those of its own vectors, including residual ones.
     const Interface& tip = few.interface("tip");
     Eigen::MatrixXd motions(6, few.mode_count());
     motions << tip.translation, tip.rotation;
@@ -226,7 +226,7 @@ TEST_CASE("the study of mode counts is what bodies with so many modes and residu
     const Eigen::Index n = row.modes_only_Hz.size();
     CHECK((row.modes_only_Hz.array() / modes_only.array().head(n) - 1).abs().maxCoeff() < kSame);
     CHECK((row.corrected_Hz.array() / corrected.array().head(6) - 1).abs().maxCoeff() < kSame);
-    // Ritz values: above the exact ones, nearer with corrections.
+    // Ritz values are above the exact ones, and nearer with corrections.
     CHECK(row.corrected_Hz[0] > exact.frequencies_Hz[0] * (1 - kSame));
     CHECK(row.corrected_Hz[0] < row.modes_only_Hz[0]);
   }

@@ -48,9 +48,9 @@ TEST_CASE("a rigid motion is its own average, on curved faces and in distorted e
 }
 
 TEST_CASE("the average of a homogeneous strain on a flat face is the slope of the face") {
-  // u = S x on the plane z = 0 about the centre of a rectangle: translation zero; u_z = S_zx x +
-  // S_zy y tilts the plane by (S_zy, -S_zx); the in-plane shear turns it by
-  // int (x u_y - y u_x) / int (x^2 + y^2) = S_xy (a^2 - b^2) / (a^2 + b^2), zero for a square.
+  // The field is u = S x on the plane z = 0 about the centre of a rectangle: translation zero; u_z
+  // = S_zx x + S_zy y tilts the plane by (S_zy, -S_zx); the in-plane shear rotates it by int (x u_y
+  // - y u_x) / int (x^2 + y^2) = S_xy (a^2 - b^2) / (a^2 + b^2), zero for a square.
   Eigen::Matrix3d strain;
   strain << 0.3, 0.5, -0.2, 0.5, -0.1, 0.7, -0.2, 0.7, 0.4;
   for (const double side_y : {0.2, 0.1}) {

@@ -20,7 +20,7 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-/// Two solutions of the same small problem in double precision.
+/// Relative difference of two solutions of the same small problem in double precision.
 constexpr double kSame = 1e-9;
 const Eigen::Vector3d kTip(0.01, -0.02, 0.32);
 const Eigen::Vector3d kRoot(0.02, 0.01, 0);
@@ -43,8 +43,8 @@ ModalOptions fixed_with_rigid_tip(BasisKind basis, int count) {
   return options;
 }
 
-/// A basis of all motions of the free nodes that move those of a set rigidly: each degree of
-/// freedom outside of the set, and six motions about the origin.
+/// Basis of all motions of the free nodes that move those of a set rigidly: each degree of freedom
+/// outside of the set, and six motions about the origin.
 Eigen::MatrixXd motions_with_rigid(const mesher::Mesh& mesh, const DofMap& dof_map,
                                    const std::vector<std::int32_t>& nodes) {
   const Eigen::Index size = dof_map.dof_count();
@@ -120,7 +120,7 @@ TEST_CASE("a free body with a rigid interface has six rigid motions and the cons
       (2 * std::numbers::pi);
   CHECK(body.frequencies_Hz.head(6).maxCoeff() == 0);
   CHECK((body.frequencies_Hz.tail(4).array() / expected.array() - 1).abs().maxCoeff() < kSame);
-  // Inertia counts as many with the couplings, and the finer mesh has the same modes.
+  // The Sturm count with the couplings agrees, and the finer mesh has the same modes.
   CHECK_THAT(body.completeness, Contains("checked: no mode is missing"));
   for (std::size_t l = 6; l < 10; ++l) {
     REQUIRE(body.modes[l].mesh_error);

@@ -21,14 +21,14 @@ namespace {
 using Catch::Matchers::Contains;
 using testing::first_derivative;
 
-/// Of solutions of the eigenproblem at moved values, by differences of order 6.
+/// Relative error of differences of order 6 between solutions of the eigenproblem.
 constexpr double kDifferences = 1e-6;
 constexpr double kLength = 0.3;
 const mesher::Material kSoft{"rubber", 8.3e6, 0.49, 950};
 const mesher::Material kHard{"steel", 2.1e8, 0.3, 7850};
 
 /// A block without any symmetry, of two materials.
-/// @param t widens, shears and lengthens it, each node in another way
+/// @param t widens, shears and lengthens it, differently at each node
 mesher::Mesh block(double t) {
   testing::BlockMesh box = testing::box({1, 1, 1}, {1, 1, 1}, kSoft);
   box.slices = {{"pad", 1, kSoft}, {"plate", 1, kHard}};
@@ -50,7 +50,7 @@ ModalOptions options_of_block() {
   return options;
 }
 
-/// Frequencies, those with the body attached, stiffnesses, mass.
+/// Frequencies, frequencies with the body attached, stiffnesses, and mass.
 Eigen::VectorXd values_of(const mesher::Mesh& mesh, const ModalOptions& options) {
   const ModalBody body = analyse_modes(mesh, options, {});
   const Eigen::Index modes = body.mode_count();
@@ -65,7 +65,8 @@ Eigen::VectorXd values_of(const mesher::Mesh& mesh, const ModalOptions& options)
   return values;
 }
 
-/// @param width of the step in t
+/// Velocities of the nodes.
+/// @param width step in t
 Eigen::Matrix3Xd velocity_of(const std::function<mesher::Mesh(double)>& mesh_at, double width) {
   return mesher::node_velocity(mesh_at(0), mesh_at(-width / 2), mesh_at(width / 2), width);
 }
@@ -136,8 +137,8 @@ void check_all_parameters(const std::function<mesher::Mesh(double)>& mesh_at,
       constant_of(other.materials[constant.material], constant.constant) += t * parameter.value;
       return values_of(other, options);
     };
-    // Where a constant means next to nothing, rounding of the values is what differs: a part in
-    // 1e12 over the step. Poisson's ratio is not to come to 1/2.
+    // The difference of quantities that hardly depend on a constant is the rounding of their
+    // values: a part in 1e12 over the step. Poisson's ratio must not reach 1/2.
     const double step = constant.constant == MaterialConstant::poissons_ratio ? 2e-3 : 1e-2;
     check_same(parameter.value * found.derivatives.col(p), first_derivative(changed, step),
                (parameter.value * found.derivatives.col(p)).cwiseAbs() + 1e-4 * values);
@@ -187,8 +188,8 @@ TEST_CASE("so they are with tied slits, other elements and other formulations") 
 }
 
 TEST_CASE("a body that grows, stiffens or gets heavier as a whole has closed forms") {
-  // f ~ sqrt(E / rho) / L, m ~ rho L^3, force by displacement ~ E L, moment by rotation ~ E L^3;
-  // the points of interfaces stand still, so the middle of growth is there.
+  // The closed forms are f ~ sqrt(E / rho) / L, m ~ rho L^3, force by displacement ~ E L, moment by
+  // rotation ~ E L^3; the points of interfaces are fixed, so the centre of growth is there.
   const auto mesh_at = [](double t) {
     testing::BlockMesh box = testing::box({1, 1, 2}, {0.05, 0.07, kLength}, kSoft);
     const auto at_rest = box.position;
@@ -210,7 +211,7 @@ TEST_CASE("a body that grows, stiffens or gets heavier as a whole has closed for
   for (std::size_t q = 0; q < found.quantities.size(); ++q) {
     const Quantity& quantity = found.quantities[q];
     INFO(name_of(quantity.kind) << ' ' << quantity.name);
-    Eigen::Vector3d expected(0.5, -0.5, -1);  // by E, rho and size
+    Eigen::Vector3d expected(0.5, -0.5, -1);  // exponents of E, rho and size
     if (quantity.kind == QuantityKind::mass) expected = {0, 1, 3};
     if (quantity.kind == QuantityKind::static_stiffness) {
       expected = {1, 0, quantity.name.front() == 'F' ? 1.0 : 3.0};
@@ -229,7 +230,7 @@ TEST_CASE("a free body has derivatives of its elastic modes and its mass only") 
   options.mode_count = 9;
   const Sensitivities found =
       analyse(block(0), options, {{"t", "m", 0.01, velocity_of(block, 1e-2)}});
-  // The first two lie within 1 % of one another, so what is differentiated is their mean.
+  // The first two lie within 1 % of one another, so their mean is differentiated.
   const auto moved = [&](double t) -> Eigen::Vector3d {
     const Eigen::VectorXd all = analyse_modes(block(t), options, {}).frequencies_Hz;
     return {std::sqrt(all.segment<2>(6).squaredNorm() / 2), all[8],
@@ -256,6 +257,7 @@ mesher::Mesh column(const Eigen::Vector3d& t) {
   return box.make();
 }
 
+/// Sensitivities of the column.
 /// @param directions names of parameters, 0: x, 1: diagonal, 2: both
 Sensitivities of_column(const std::vector<Eigen::Index>& directions, ModalOptions& options) {
   options.mode_count = 4;
@@ -298,7 +300,7 @@ TEST_CASE("of a double eigenvalue there are the mean's gradient and directional 
     const double scale = found.derivatives.col(p).cwiseAbs().maxCoeff();
     CHECK(std::abs(row_of(found, QuantityKind::mean_frequency, 0)[p] -
                    first_derivative(mean, 4e-3)) < kDifferences * scale);
-    // A branch that is the lower one ahead is the upper one behind.
+    // A branch that is the lower one for positive t is the upper one for negative t.
     const auto lower = [&](double t) { return t > 0 ? pair_at(t)[0] : pair_at(t)[1]; };
     const auto upper = [&](double t) { return t > 0 ? pair_at(t)[1] : pair_at(t)[0]; };
     CHECK(std::abs(row_of(found, QuantityKind::directional, 0)[p] - first_derivative(lower, 4e-3)) <
@@ -306,7 +308,7 @@ TEST_CASE("of a double eigenvalue there are the mean's gradient and directional 
     CHECK(std::abs(row_of(found, QuantityKind::directional, 1)[p] - first_derivative(upper, 4e-3)) <
           kDifferences * scale);
   }
-  // The diagonal couples the modes along x and y: no gradient of each.
+  // The diagonal couples the modes along x and y, so that there is no gradient of each.
   CHECK(std::none_of(found.quantities.begin(), found.quantities.end(), [](const Quantity& each) {
     return each.kind == QuantityKind::symmetry_class;
   }));
@@ -319,7 +321,8 @@ TEST_CASE("modes of different symmetry have gradients of their own where nothing
   CHECK_THAT(found.notes.at(0), Contains("by symmetry class"));
   const Eigen::RowVectorXd along_x = row_of(found, QuantityKind::symmetry_class, 0);
   const Eigen::RowVectorXd along_y = row_of(found, QuantityKind::symmetry_class, 1);
-  // Slender: f ~ the width in the direction of motion; here 10 : 1, with shear.
+  // For slender columns f is proportional to the width in the direction of motion; the slenderness
+  // is 10 : 1, with shear.
   const double f_Hz = found.quantities[0].value;
   CHECK(along_x[0] / f_Hz == Approx(1).margin(0.05));
   CHECK(along_y[0] / f_Hz == Approx(0).margin(0.05));

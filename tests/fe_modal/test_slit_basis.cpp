@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A block of rubber with a slit from its front to its middle: shut it is the whole block, open the
-// cracked one.
+// A block of rubber with a slit from its front to its middle: with the slit shut it is the whole
+// block, with the slit open the cracked one.
 #include <algorithm>
 #include <numbers>
 #include <random>
@@ -57,12 +57,12 @@ MatrixXd top_stiffness(const ModalBody& body) {
   return stiffness.bottomRightCorner(size, size);
 }
 
-/// The top's compliance with openings that no load acts on.
+/// Compliance of the top with unloaded openings.
 Matrix6d open_compliance(const MatrixXd& stiffness) {
   return stiffness.inverse().topLeftCorner<6, 6>();
 }
 
-/// What the slit's upper side moves along the normals beyond the lower one, (p, m).
+/// Displacement of the slit's upper side along the normals relative to the lower one, (p, m).
 MatrixXd openings_of_modes(const ModalBody& body, const mesher::Mesh& mesh) {
   const mesher::Slit& slit = mesh.slits.front();
   MatrixXd openings(static_cast<Eigen::Index>(slit.upper.size()), body.mode_count());
@@ -86,7 +86,7 @@ TEST_CASE("a slit that is shut is none, to the last digits of the stiffness and 
     CHECK((motion_part - bonded.stiffness).norm() < 1e-8 * bonded.stiffness.norm());
     CHECK((shut.mass - bonded.mass).norm() < 1e-8 * bonded.mass.norm());
   } else {
-    // Sliding only softens, here the shear and the twist of the block.
+    // Sliding softens only, here the shear and the torsion of the block.
     const MatrixXd softer = bonded.stiffness - motion_part;
     CHECK(softer.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() >
           -1e-8 * bonded.stiffness.norm());
@@ -102,13 +102,14 @@ TEST_CASE("a slit that loads pull open is a crack") {
   const Matrix6d bonded = open_compliance(top_stiffness(block(SlitMotions::none, true)));
   for (Eigen::Index k = 0; k < 6; ++k) {
     CAPTURE(k, bonded(k, k), stuck(k, k), sliding(k, k), crack(k, k));
-    // Jumps between the sides are restricted to some fields: never softer than the crack.
+    // Jumps between the sides are restricted to some fields: the block is never softer than with
+    // the crack.
     CHECK(sliding(k, k) <= crack(k, k) * (1 + 1e-8));
     CHECK(stuck(k, k) <= sliding(k, k) * (1 + 1e-8));
     CHECK(bonded(k, k) <= stuck(k, k) * (1 + 1e-8));
     CHECK(sliding(k, k) == Approx(crack(k, k)).epsilon(0.03));
   }
-  // Bending opens it, by far the most of what it does.
+  // Bending opens the slit, which is by far its largest effect.
   CHECK(crack(4, 4) > 1.5 * bonded(4, 4));
   CHECK(stuck(4, 4) == Approx(crack(4, 4)).epsilon(0.05));
 }
@@ -126,10 +127,10 @@ TEST_CASE("openings are the edges of all that keeps the sides of a slit apart") 
     CHECK(openings.col(k).maxCoeff() > 0.9);
     CHECK(openings.col(k).minCoeff() > -kTip);
   }
-  // Beyond an edge they overlap.
+  // Beyond an edge of the cone the sides overlap.
   CHECK((openings.col(0) - 0.05 * openings.col(1)).minCoeff() < -3 * kTip);
   CHECK((openings.col(1) - 0.05 * openings.col(0)).minCoeff() < -3 * kTip);
-  // Without a motion of the top nothing but the slit moves it.
+  // Without a motion of the top only the slit's stiffness resists the openings.
   const MatrixXd stiffness = top_stiffness(body);
   CHECK(stiffness.bottomRightCorner<2, 2>().selfadjointView<Eigen::Lower>().eigenvalues()[0] > 0);
 }
@@ -162,7 +163,8 @@ TEST_CASE("with its openings as coordinates a body is the bonded one, and the op
   REQUIRE(found.stiffness.rows() == 2);
   CHECK((shut.invariants.Maa - MatrixXd::Identity(10, 10)).norm() < 1e-9);
 
-  // Shut: the modes and the compliance of the body without a slit; sides that slide soften it.
+  // The shut slit leaves the modes and the compliance of the body without a slit; sides that slide
+  // soften it.
   options.slit_motions = SlitMotions::none;
   const ModalBody bonded = analyse_modes(slit_block(true), options, {});
   const auto compliance = [](const ModalBody& body) -> Matrix6d {
@@ -177,7 +179,7 @@ TEST_CASE("with its openings as coordinates a body is the bonded one, and the op
     CHECK((compliance(shut) - compliance(bonded)).norm() < 1e-8 * compliance(bonded).norm());
     const InertiaInvariants& a = shut.invariants;
     const InertiaInvariants& b = bonded.invariants;
-    for (std::size_t k = 0; k < 4; ++k) {  // up to the signs of modes
+    for (std::size_t k = 0; k < 4; ++k) {  // equal up to the signs of modes
       CHECK(a.G[k * 10 + k].norm() == Approx(b.G[k * 10 + k].norm()).epsilon(1e-7));
       CHECK(a.S2.col(static_cast<Eigen::Index>(k)).norm() ==
             Approx(b.S2.col(static_cast<Eigen::Index>(k)).norm()).margin(1e-9));
@@ -186,7 +188,7 @@ TEST_CASE("with its openings as coordinates a body is the bonded one, and the op
     CHECK(shut.frequencies_Hz[0] < bonded.frequencies_Hz[0] * (1 + 1e-9));
   }
 
-  // Pulled open: the compliance of the section.
+  // The open slit gives the compliance of the section.
   MatrixXd stiffness(12, 12);
   const Eigen::VectorXd omega = 2 * std::numbers::pi * shut.frequencies_Hz;
   stiffness << omega.cwiseAbs2().asDiagonal().toDenseMatrix(), found.coupling.transpose(),

@@ -18,12 +18,13 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-/// Solutions that the elements hold exactly: rounding of a direct solution alone.
+/// Relative error of solutions that the elements represent exactly: rounding of a direct solution
+/// alone.
 constexpr double kExact = 1e-9;
 constexpr double kYoung = 2e9;
 constexpr double kWidth = 0.04, kDepth = 0.06, kHeight = 0.2;
 
-/// Without lateral contraction, so that a clamp adds nothing.
+/// A block without lateral contraction, so that a clamp adds no stiffness.
 mesher::Mesh block(mesher::ElementKind kind, double poissons_ratio = 0) {
   return testing::with_kind(
       testing::box({2, 1, 3}, {kWidth, kDepth, kHeight}, {"plain", kYoung, poissons_ratio, 1500})
@@ -74,7 +75,7 @@ ModalOptions clamped(Formulation formulation = Formulation::displacement) {
   return options;
 }
 
-/// A cube whose edges and faces bend, but whose corners stay.
+/// A cube with curved edges and faces, but undisplaced corners.
 mesher::Mesh bent_cube(mesher::ElementKind kind) {
   testing::BlockMesh block = testing::box({2, 2, 2}, {1, 1, 1}, {"rubber", 8e6, 0.45, 1000});
   block.position = [](const Eigen::Vector3d& p) -> Eigen::Vector3d {
@@ -115,7 +116,7 @@ TEST_CASE("pressure all round a bent cube is the pressure at every point of any 
   Stress expected = Stress::Zero();
   expected.head<3>().setConstant(-kPressure);
   CHECK(stress_error(solution, kPressure, [&](const Eigen::Vector3d&) { return expected; }) < 1e-7);
-  // u = -p / (3 kappa) x about the corner that stays
+  // The displacement is u = -p / (3 kappa) x about the fixed corner.
   const double bulk_modulus = 8e6 / (3 * (1 - 2 * 0.45));
   const Eigen::Matrix3Xd displacements =
       -kPressure / (3 * bulk_modulus) *
@@ -169,7 +170,7 @@ TEST_CASE("a bar bent by a moment on a face or by its supports has the stresses 
   CHECK(stress_error(by_face, scale, bending) < kExact);
   const Resultant reaction = resultant_of(by_face.nodes_m, by_face.reactions_N);
   CHECK((reaction.moment_Nm + face.moment_Nm).norm() < kExact * kMoment);
-  // The same by turning the top, which may slide in its plane.
+  // A rotation of the top, which may slide in its plane, gives the same result.
   ModalOptions options = clamped(formulation);
   options.fixed_directions = {{"top", {false, false, true}}};
   SupportLoad support{"top"};
@@ -194,7 +195,7 @@ TEST_CASE("a standing bar carries its weight, and a force at a node has its reac
   const Eigen::Vector3d moment =
       Eigen::Vector3d(0, 0, kHeight / 2).cross(mass * gravity) + corner.cross(pull);
   CHECK((reaction.moment_Nm + moment).norm() < kExact * moment.norm());
-  // Under its weight alone each section carries what stands above it.
+  // Under its own weight each section carries the weight above it.
   const StaticSolution standing =
       analyse_static(mesh, clamped(), {{"weight", GravityLoad{{0, 0, -9.81}}}}, {});
   CHECK(stress_error(standing, 1500 * 9.81 * kHeight, [](const Eigen::Vector3d& p) {

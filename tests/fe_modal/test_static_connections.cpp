@@ -19,7 +19,8 @@ using Catch::Matchers::Contains;
 const Eigen::Vector3d kGravity(0.3, -2, -9.81);
 const Eigen::Vector3d kForce(3, -2, 5);
 
-/// On oblique supports and springs, with a heavy body on a coupling that a node is geared to.
+/// A block on oblique supports and springs, with a heavy body on a coupling to which a node is
+/// geared.
 mesher::Mesh block() {
   testing::BlockMesh box = testing::box({1, 1, 2}, {1, 1, 1}, {"rubber", 8.3e6, 0.45, 950});
   box.position = [](const Eigen::Vector3d& p) -> Eigen::Vector3d {
@@ -55,7 +56,7 @@ Eigen::Matrix3Xd dense_displacements(const mesher::Mesh& mesh) {
   const auto n = static_cast<Eigen::Index>(mesh.nodes.size());
   Eigen::VectorXd fall = Eigen::VectorXd::Zero(model.mass.rows());
   for (Eigen::Index node = 0; node < n; ++node) fall.segment<3>(3 * node) = kGravity;
-  fall.segment<3>(3 * n) = kGravity;  // the point
+  fall.segment<3>(3 * n) = kGravity;  // acceleration of the reference point
   Eigen::VectorXd force = model.mass * fall;
   for (const std::int32_t node : mesh.node_set("top").nodes) {
     force.segment<3>(3 * static_cast<Eigen::Index>(node)) += kForce;
@@ -67,7 +68,8 @@ Eigen::Matrix3Xd dense_displacements(const mesher::Mesh& mesh) {
   return motion.head(3 * n).reshaped(3, n);
 }
 
-/// Weights by the invariants of the whole, masses at points and nodes included, and pushes.
+/// Resultant of the weights, from the invariants of the whole including masses at points and nodes,
+/// and of the pushes.
 Resultant all_loads(const mesher::Mesh& mesh) {
   ModalOptions options;
   options.mode_count = 1;
@@ -92,7 +94,8 @@ TEST_CASE("a static step under constraints, springs and masses is that of the nu
     StaticSolutionFile file;
     file.solution = analyse_static(mesh, options, loads(), {});
     CHECK((file.solution.displacements_m - expected).norm() < kSame * expected.norm());
-    // The weight of the whole, the mass at the point included, and the pushes: about the origin.
+    // The resultant about the origin is that of the weight of the whole, including the mass at the
+    // point, and of the pushes.
     const Resultant applied = resultant_of(file.solution.nodes_m, file.solution.applied_N);
     const Resultant reactions = resultant_of(file.solution.nodes_m, file.solution.reactions_N);
     const auto [force_N, moment_Nm] = all_loads(mesh);

@@ -21,7 +21,7 @@ Eigen::MatrixXd definite(double diagonal) {
 }  // namespace
 
 TEST_CASE("a compliance is wrong by squares of what its modes are wrong by") {
-  std::srand(1);  // the same matrices, whatever ran before
+  std::srand(1);  // gives the same matrices in any order of tests
   const Eigen::MatrixXd stiffness = definite(1);
   const Eigen::MatrixXd mass = definite(20);
   const Eigen::LLT<Eigen::MatrixXd> factor(stiffness);
@@ -35,7 +35,7 @@ TEST_CASE("a compliance is wrong by squares of what its modes are wrong by") {
   const Eigen::MatrixXd others =
       all.vectors.rightCols(kSize - kModes) * Eigen::MatrixXd::Random(kSize - kModes, kModes);
   const auto error_with = [&](double wrong) {
-    // Rayleigh-Ritz of modes that are wrong: M-orthonormal, and K between them is diagonal.
+    // Inexact modes by Rayleigh-Ritz: M-orthonormal, and K between them is diagonal.
     const Eigen::MatrixXd span = all.vectors.leftCols(kModes) + wrong * others;
     const auto ritz =
         testing::dense_pairs(span.transpose() * stiffness * span, span.transpose() * mass * span);

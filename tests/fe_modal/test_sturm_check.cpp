@@ -35,7 +35,7 @@ TEST_CASE("inertia counts the eigenvalues of a dense solution, double ones twice
     };
     const Eigen::VectorXd values =
         testing::dense_pairs(dense(matrices.stiffness.get()), dense(matrices.mass.get())).values;
-    if (fixed) REQUIRE(values[1] < values[0] * (1 + 1e-8));  // bending in both directions
+    if (fixed) REQUIRE(values[1] < values[0] * (1 + 1e-8));  // bending modes in both directions
     for (const Eigen::Index k : {2, 7, 12, 50}) {
       if (values[k] < values[k - 1] * (1 + 1e-6)) continue;
       if (values[k - 1] < 1e-6 * values[50] && !fixed && k < 6) continue;
@@ -138,7 +138,7 @@ TEST_CASE("all modes that a body has are found and told as all") {
   options.mode_count = 54;
   const ModalBody body = analyse_modes(mesh, options, {});
   CHECK(body.completeness == "checked: all modes that there are");
-  // Of the modes within the element, too, a finer mesh has the shape or has it not.
+  // A finer mesh either has the shape or lacks it, for modes within the element as well.
   for (const ModeRecord& mode : body.modes) {
     REQUIRE(mode.mesh_error);
     CHECK((mode.mesh_error->mac >= 0 && mode.mesh_error->mac <= 1 + 1e-9));

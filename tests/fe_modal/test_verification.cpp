@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Published cases and closed forms beside those of test_modal_analysis.cpp (cantilever, twist and
-// stretch of a tube).
+// Published cases and closed forms in addition to those of test_modal_analysis.cpp (cantilever,
+// torsion and stretch of a tube).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +19,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-/// A cylinder about the z axis whose elements are those of a square, pushed outwards.
+/// A cylinder about the z axis, meshed as a square that is pushed outwards.
 testing::BlockMesh cylinder(int divisions, double radius_m, double height_m) {
   testing::BlockMesh block = testing::box({divisions, divisions, 1}, {1, 1, 1}, {});
   block.position = [=](const Eigen::Vector3d& p) -> Eigen::Vector3d {
@@ -38,13 +38,14 @@ ModalOptions fixed_at_bottom(int mode_count) {
   return options;
 }
 
-/// The nearest of a body's frequencies over the one expected, less one.
+/// Relative error of the nearest of a body's frequencies to the expected one.
 double nearest_error(const ModalBody& body, double expected_Hz) {
   return (body.frequencies_Hz.array() / expected_Hz - 1).abs().minCoeff();
 }
 
-/// Columns: motions of the free nodes of a plate, one element thick, that are symmetric to its
-/// middle plane: in the plane alike above and below, across it opposite, and none in the middle.
+/// Basis, in columns, of the motions of a plate's free nodes, one element thick, that are symmetric
+/// about its middle plane: equal above and below in the plane, opposite across it, and zero across
+/// it in the middle.
 Eigen::MatrixXd membrane_motions(const mesher::Mesh& plate, const DofMap& dof_map) {
   const auto layer = plate.nodes.size() / 3;
   std::vector<Eigen::VectorXd> columns;
@@ -73,10 +74,11 @@ Eigen::MatrixXd membrane_motions(const mesher::Mesh& plate, const DofMap& dof_ma
 }  // namespace
 
 TEST_CASE("NAFEMS FV32: membrane frequencies of a tapered cantilever") {
-  // 10 m long, 5 m wide where it is clamped, 1 m at the tip, 0.05 m thick; plane stress, so that
-  // the solid plate may get thinner and thicker but not bend. Targets: NAFEMS, Free Vibration
-  // Benchmarks, 1987, test 32. The solid has the clamped edge fixed across the plate too.
-  // Left over is the mesh: 8 x 4 elements are 0.3 % high in the fifth, the others below 0.1 %.
+  // The plate is 10 m long, 5 m wide at the clamp, 1 m at the tip, 0.05 m thick; plane stress, so
+  // that the solid plate may change its thickness but not bend. Targets: NAFEMS, Free Vibration
+  // Benchmarks, 1987, test 32. The solid has the clamped edge fixed across the plate too. The
+  // remaining error is that of the mesh: 8 x 4 elements are 0.3 % high in the fifth, the others
+  // below 0.1 %.
   constexpr double kTolerance = 4e-3;
   constexpr std::array kTargets_Hz = {44.623, 130.03, 162.70, 246.05, 379.90, 391.44};
   testing::BlockMesh block = testing::box({8, 4, 1}, {1, 1, 1}, {"steel", 2e11, 0.3, 8000});
@@ -102,8 +104,8 @@ TEST_CASE("NAFEMS FV32: membrane frequencies of a tapered cantilever") {
 }
 
 TEST_CASE("a solid round bar twists at the frequencies of waves, n odd quarters") {
-  // (2n - 1) sqrt(G / rho) / 4L. What is left is the mesh: three elements to a quarter wave of n
-  // = 2.
+  // The frequencies are (2n - 1) sqrt(G / rho) / 4L. The remaining error is that of the mesh: three
+  // elements to a quarter wave of n = 2.
   constexpr double kTolerance = 2e-4;
   constexpr double kLength = 0.2;
   testing::BlockMesh bar = cylinder(2, 0.05, kLength);
@@ -115,10 +117,10 @@ TEST_CASE("a solid round bar twists at the frequencies of waves, n odd quarters"
 }
 
 TEST_CASE("a free block has the Lamé mode of its square section") {
-  // u = (cos kx sin ky, -sin kx cos ky, 0) with k = pi / a and faces at x, y = 0, a: pure shear on
-  // every face but none of its stress, so exact for any height and any nu: f = sqrt(G / rho) / (a
-  // sqrt 2). Six rigid motions come first.
-  constexpr double kTolerance = 5e-4;  // of four elements to a half wave
+  // The mode u = (cos kx sin ky, -sin kx cos ky, 0) with k = pi / a and faces at x, y = 0, a has
+  // pure shear but no traction on every face, so it is exact for any height and any nu: f = sqrt(G
+  // / rho) / (a sqrt 2). Six rigid motions come first.
+  constexpr double kTolerance = 5e-4;  // error of four elements to a half wave
   constexpr double kSide = 0.1;
   const mesher::Material material{"steel", 2.1e11, 0.3, 7850};
   const mesher::Mesh mesh = testing::box({4, 4, 2}, {kSide, kSide, 0.06}, material).make();
@@ -131,7 +133,7 @@ TEST_CASE("a free block has the Lamé mode of its square section") {
   Eigen::Index nearest = 0;
   (body.frequencies_Hz.array() - expected).abs().minCoeff(&nearest);
   CHECK(std::abs(body.frequencies_Hz[nearest] / expected - 1) < kTolerance);
-  // Its shape, with the box centred on the axis.
+  // The closed form is the mode's shape, with the box centred on the axis.
   Eigen::Matrix3Xd closed_form(3, body.nodes_m.cols());
   constexpr double k = std::numbers::pi / kSide;
   for (Eigen::Index n = 0; n < closed_form.cols(); ++n) {
@@ -145,11 +147,11 @@ TEST_CASE("a free block has the Lamé mode of its square section") {
 }
 
 TEST_CASE("a mass on a bonded rubber disc moves at the frequency of Gent's modulus") {
-  // Ea = E (1 + 2 S^2) and 1/Ea' = 1/Ea + 1/B, S = D / 4t, B the bulk modulus: a heavy plate on the
-  // disc moves with (2 pi f)^2 = Ea' A / (t m). The formula neglects what the bulge does to the
-  // pressure in a compressible disc: against the solution of Chalhoub and Kelly (Int. J. Solids
-  // Struct. 26 (1990) 743) it is up to a few per cent off, hence the tolerance. For such a flat
-  // disc displacements alone are far too stiff.
+  // The apparent modulus is Ea = E (1 + 2 S^2) and 1/Ea' = 1/Ea + 1/B, S = D / 4t, B the bulk
+  // modulus: a heavy plate on the disc moves with (2 pi f)^2 = Ea' A / (t m). The formula neglects
+  // the effect of the bulge on the pressure in a compressible disc: against the solution of
+  // Chalhoub and Kelly (Int. J. Solids Struct. 26 (1990) 743) it is up to a few per cent off, hence
+  // the tolerance. For such a flat disc displacement elements alone are far too stiff.
   constexpr double kTolerance = 0.03;
   constexpr double kRadius = 0.04, kThickness = 0.005, kPlate = 0.02;
   constexpr double kYoung = 4e6, kPoisson = 0.499;
