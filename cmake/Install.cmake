@@ -20,14 +20,14 @@ install(FILES "${made}/flexneck"
 install(FILES README.md LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
 
 # Shipped files, laid out as in the sources: files name one another by these paths.
-foreach(folder geometry geometry/examples pipeline/models pipeline/regulations pipeline/studies
-               pipeline/studies/fits pipeline/verification)
+foreach(folder geometry geometry/examples pipeline/data/models pipeline/data/regulations pipeline/data/studies
+               pipeline/data/studies/fits pipeline/data/verification)
   file(GLOB files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*")
   list(FILTER files INCLUDE REGEX "\\.(toml|geo|csv|inp|msh|md)$")
   install(FILES ${files} DESTINATION "${flexneck_data}/${folder}" COMPONENT runtime)
 endforeach()
-install(FILES pipeline/fmu/muparser.txt DESTINATION "${flexneck_data}/pipeline/fmu" COMPONENT runtime)
-install(DIRECTORY pipeline/report/page DESTINATION "${flexneck_data}/pipeline/report"
+install(FILES pipeline/exchange/fmu/muparser.txt DESTINATION "${flexneck_data}/pipeline/exchange/fmu" COMPONENT runtime)
+install(DIRECTORY pipeline/results/report/page DESTINATION "${flexneck_data}/pipeline/results/report"
         COMPONENT runtime)
 
 # Libraries of the source folders: target flexneck_multibody is flexneck::multibody for users of the
@@ -47,9 +47,9 @@ install(EXPORT flexneck NAMESPACE flexneck:: FILE flexneck-targets.cmake
         DESTINATION "${flexneck_config}" COMPONENT development)
 install(DIRECTORY geometry mesher fe_modal multibody pipeline DESTINATION "${flexneck_headers}"
         COMPONENT development FILES_MATCHING PATTERN "*.h"
-        PATTERN "pipeline/models" EXCLUDE PATTERN "pipeline/studies" EXCLUDE
-        PATTERN "pipeline/regulations" EXCLUDE PATTERN "pipeline/pictures" EXCLUDE PATTERN "pipeline/python" EXCLUDE
-        PATTERN "pipeline/verification/*.toml" EXCLUDE PATTERN "geometry/examples" EXCLUDE
+        PATTERN "pipeline/data/models" EXCLUDE PATTERN "pipeline/data/studies" EXCLUDE
+        PATTERN "pipeline/data/regulations" EXCLUDE PATTERN "pipeline/data/pictures" EXCLUDE PATTERN "pipeline/python" EXCLUDE
+        PATTERN "pipeline/data/verification/*.toml" EXCLUDE PATTERN "geometry/examples" EXCLUDE
         PATTERN "page" EXCLUDE)
 install(FILES "${PROJECT_BINARY_DIR}/generated/pipeline/version.h"
         DESTINATION "${flexneck_headers}/pipeline" COMPONENT development)

@@ -16,8 +16,8 @@ faults 2000 python3 -B tests/reliability/disturbed_runs.py faults build/flexneck
 races 1000 python3 -B tests/reliability/disturbed_runs.py races build/flexneck --jobs 1 --seed $seed --runs $count --out $out
 kills 200 python3 -B tests/reliability/disturbed_runs.py kills build/flexneck --jobs 1 --seed $seed --runs $count --out $out
 full-disk 200 python3 -B tests/reliability/disturbed_runs.py full-disk build/flexneck --jobs 1 --seed $seed --runs $count --out $out
-large-bending 1 python3 -B tests/pipeline/large_bending.py build/flexneck --seed $seed --runs $count --out $out
-fit-coverage 50 python3 -B tests/pipeline/fit/chain_coverage.py build/flexneck --seed $seed --runs $count --out $out
+large-bending 1 python3 -B tests/pipeline/cli/large_bending.py build/flexneck --seed $seed --runs $count --out $out
+fit-coverage 50 python3 -B tests/pipeline/parameter_studies/fit/chain_coverage.py build/flexneck --seed $seed --runs $count --out $out
 fuzz 1000000 python3 tests/reliability/fuzz/fuzz.py --seed $seed --runs $count --out $out
 sanitize 1 run_under sanitize
 thread 20 run_under thread

@@ -60,6 +60,10 @@ void check(const VectorXd& signal, double interval_s, double cfc) {
 
 }  // namespace
 
+std::string name_of(ChannelClass channel_class) {
+  return "CFC " + std::to_string(static_cast<int>(channel_class));
+}
+
 VectorXd cfc_filtered(const VectorXd& signal, double interval_s, ChannelClass cfc) {
   const double number = static_cast<double>(cfc);
   check(signal, interval_s, number);

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+
 #include <Eigen/Core>
 
 namespace flexneck::multibody {
 
 /// Channel frequency classes of SAE J211-1 and ISO 6487.
 enum class ChannelClass { cfc60 = 60, cfc180 = 180, cfc600 = 600, cfc1000 = 1000 };
+
+/// Name such as "CFC 600".
+std::string name_of(ChannelClass channel_class);
 
 /// The digital filter of SAE J211-1 annex C: a two-pole Butterworth filter run forwards and then
 /// backwards, so that it has four poles and no phase shift. The gain at a frequency f is

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "multibody/history/history.h"
-#include "pipeline/study/study.h"
+#include "pipeline/language/study/study.h"
 
 namespace flexneck::pipeline {
 

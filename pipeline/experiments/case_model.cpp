@@ -6,8 +6,8 @@
 
 #include "geometry/foundation/error.h"
 #include "pipeline/experiments/rigid_neck.h"
-#include "pipeline/model/model_check.h"
-#include "pipeline/model/start_check.h"
+#include "pipeline/language/model/model_check.h"
+#include "pipeline/language/model/start_check.h"
 
 namespace flexneck::pipeline {
 

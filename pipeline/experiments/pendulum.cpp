@@ -14,7 +14,7 @@
 #include "pipeline/experiments/case_model.h"
 #include "pipeline/experiments/pendulum_signals.h"
 #include "pipeline/experiments/sampling.h"
-#include "pipeline/model/placement.h"
+#include "pipeline/language/model/placement.h"
 
 namespace flexneck::pipeline {
 

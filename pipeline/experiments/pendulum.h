@@ -10,8 +10,8 @@
 #include "multibody/history/incomplete_run.h"
 #include "multibody/signals/response.h"
 #include "multibody/simulation/simulation.h"
-#include "pipeline/model/pulse.h"
-#include "pipeline/study/study.h"
+#include "pipeline/language/model/pulse.h"
+#include "pipeline/language/study/study.h"
 
 namespace flexneck::pipeline {
 

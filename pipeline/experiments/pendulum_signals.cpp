@@ -7,10 +7,10 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
-#include "pipeline/document/channel_class.h"
 #include "pipeline/experiments/bending_plane.h"
 #include "pipeline/experiments/joint_load.h"
-#include "pipeline/model/channel.h"
+#include "pipeline/language/document/channel_class.h"
+#include "pipeline/language/model/channel.h"
 
 namespace flexneck::pipeline {
 

@@ -9,7 +9,7 @@
 #include "multibody/history/history.h"
 #include "multibody/model/model.h"
 #include "multibody/signals/cfc_filter.h"
-#include "pipeline/study/study.h"
+#include "pipeline/language/study/study.h"
 
 namespace flexneck::pipeline {
 

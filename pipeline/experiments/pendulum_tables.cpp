@@ -4,7 +4,7 @@
 #include <fmt/core.h>
 
 #include "geometry/foundation/units.h"
-#include "pipeline/study/origins.h"
+#include "pipeline/language/study/origins.h"
 
 namespace flexneck::pipeline {
 

@@ -7,7 +7,7 @@
 
 #include "multibody/analysis/linearisation.h"
 #include "pipeline/experiments/pendulum.h"
-#include "pipeline/output/result_table.h"
+#include "pipeline/process/result_table.h"
 
 namespace flexneck::pipeline {
 

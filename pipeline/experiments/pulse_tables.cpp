@@ -13,8 +13,8 @@
 #include "geometry/foundation/names.h"
 #include "geometry/foundation/units.h"
 #include "pipeline/experiments/pulse_spectrum.h"
-#include "pipeline/study/drop.h"
-#include "pipeline/study/origins.h"
+#include "pipeline/language/study/drop.h"
+#include "pipeline/language/study/origins.h"
 
 namespace flexneck::pipeline {
 

@@ -5,9 +5,9 @@
 #include <map>
 
 #include "multibody/model/model.h"
-#include "pipeline/model/relaxation.h"
-#include "pipeline/output/result_table.h"
-#include "pipeline/study/study.h"
+#include "pipeline/language/model/relaxation.h"
+#include "pipeline/language/study/study.h"
+#include "pipeline/process/result_table.h"
 
 namespace flexneck::pipeline {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "multibody/model/model.h"
-#include "pipeline/study/study.h"
+#include "pipeline/language/study/study.h"
 
 namespace flexneck::pipeline {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "pipeline/output/result_table.h"
-#include "pipeline/study/study.h"
+#include "pipeline/language/study/study.h"
+#include "pipeline/process/result_table.h"
 
 namespace flexneck::pipeline {
 

@@ -4,7 +4,7 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/experiments/case_model.h"
-#include "pipeline/model/placement.h"
+#include "pipeline/language/model/placement.h"
 
 namespace flexneck::pipeline {
 

@@ -6,7 +6,7 @@
 
 #include "fe_modal/body/modal_body.h"
 #include "multibody/model/model.h"
-#include "pipeline/study/study.h"
+#include "pipeline/language/study/study.h"
 
 namespace flexneck::pipeline {
 

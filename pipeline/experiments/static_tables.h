@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "pipeline/experiments/static_test.h"
-#include "pipeline/output/result_table.h"
+#include "pipeline/process/result_table.h"
 
 namespace flexneck::pipeline {
 

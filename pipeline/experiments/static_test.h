@@ -3,7 +3,7 @@
 
 #include "multibody/files/history_file.h"
 #include "multibody/history/history.h"
-#include "pipeline/study/study.h"
+#include "pipeline/language/study/study.h"
 
 namespace flexneck::pipeline {
 

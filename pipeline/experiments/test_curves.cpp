@@ -5,9 +5,9 @@
 
 #include <fmt/core.h>
 
-#include "pipeline/document/channel_class.h"
 #include "pipeline/experiments/pendulum.h"
 #include "pipeline/experiments/pendulum_signals.h"
+#include "pipeline/language/document/channel_class.h"
 
 namespace flexneck::pipeline {
 

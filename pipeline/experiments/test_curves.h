@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "multibody/files/history_file.h"
-#include "pipeline/study/study.h"
-#include "pipeline/verdict/verdict.h"
+#include "pipeline/laboratory/verdict/verdict.h"
+#include "pipeline/language/study/study.h"
 
 namespace flexneck::pipeline {
 

@@ -13,7 +13,7 @@
 #include "pipeline/experiments/bending_plane.h"
 #include "pipeline/experiments/case_model.h"
 #include "pipeline/experiments/rigid_neck.h"
-#include "pipeline/study/origins.h"
+#include "pipeline/language/study/origins.h"
 
 namespace flexneck::pipeline {
 

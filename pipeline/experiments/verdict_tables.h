@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/output/result_table.h"
-#include "pipeline/study/study.h"
-#include "pipeline/verdict/verdict.h"
+#include "pipeline/laboratory/verdict/verdict.h"
+#include "pipeline/language/study/study.h"
+#include "pipeline/process/result_table.h"
 
 namespace flexneck::pipeline {
 

@@ -27,14 +27,14 @@ CHAPTERS = {
     "modes": ("Modes", ["fe_modal/README.md"]),
     "multibody": ("Bodies in motion", ["multibody/README.md"]),
     "theory": ("Theory", ["multibody/CONVENTIONS.md", "multibody/equations.md"]),
-    "models": ("Model files", ["pipeline/models/README.md"]),
-    "experiments": ("Experiments, tests, ratings", ["pipeline/experiments/README.md", "pipeline/verdict/README.md",
-                                                    "pipeline/studies/README.md", "pipeline/rating/README.md"]),
-    "studies": ("Many values, free values", ["pipeline/evaluation/README.md", "pipeline/sampling/README.md",
-                                             "pipeline/sweep/README.md", "pipeline/fit/README.md"]),
+    "models": ("Model files", ["pipeline/data/models/README.md"]),
+    "experiments": ("Experiments, tests, ratings", ["pipeline/experiments/README.md", "pipeline/laboratory/verdict/README.md",
+                                                    "pipeline/data/studies/README.md", "pipeline/laboratory/rating/README.md"]),
+    "studies": ("Many values, free values", ["pipeline/parameter_studies/evaluation/README.md", "pipeline/parameter_studies/sampling/README.md",
+                                             "pipeline/parameter_studies/sweep/README.md", "pipeline/parameter_studies/fit/README.md"]),
     "python": ("From Python", ["pipeline/python/README.md"]),
     "files": ("File formats", ["geometry/foundation/README.md", "mesher/mesh/README.md", "fe_modal/body/README.md",
-                               "fe_modal/exchange/README.md", "pipeline/iso_mme/README.md", "pipeline/fmu/README.md"]),
+                               "fe_modal/exchange/README.md", "pipeline/laboratory/iso_mme/README.md", "pipeline/exchange/fmu/README.md"]),
 }
 
 

@@ -14,7 +14,7 @@
 
 #include "geometry/foundation/error.h"
 #include "multibody/simulation/simulation.h"
-#include "pipeline/model/model_file.h"
+#include "pipeline/language/model/model_file.h"
 #include "tests/campaigns/campaign.h"
 #include "tests/campaigns/draws.h"
 

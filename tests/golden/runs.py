@@ -46,12 +46,12 @@ class Runs:
         for name in SETS:
             # 1: a published frequency is missed by more than 1 %.
             for stage in ["run"] if name == "hybrid3" else ["mesh", "modes", "verify"]:
-                self.call(stage, f"pipeline/studies/{name}.toml", name, allowed=(0, 1))
+                self.call(stage, f"pipeline/data/studies/{name}.toml", name, allowed=(0, 1))
             yield from self.structure(name)
         for stage in ("mesh", "modes", "static"):
-            self.call(stage, "pipeline/studies/hybrid3_chain.toml", "hybrid3_chain")
+            self.call(stage, "pipeline/data/studies/hybrid3_chain.toml", "hybrid3_chain")
         for stage in ("mesh", "modes", "pendulum", "verify"):
-            self.call(stage, "pipeline/studies/hybrid3_qualification.toml", "hybrid3_qualification")
+            self.call(stage, "pipeline/data/studies/hybrid3_qualification.toml", "hybrid3_qualification")
         yield from self.structure("hybrid3_chain", *(f"substructure_{disc}" for disc in DISCS))
         for name, experiment in (("hybrid3", "pendulum"), ("hybrid3", "static"),
                                  ("hybrid3_chain", "static"),
@@ -103,7 +103,7 @@ class Runs:
 
     def simulate(self, model, study, settings=()):
         out = f"models/{study}"
-        self.call("simulate", f"pipeline/models/{model}.toml", out, settings)
+        self.call("simulate", f"pipeline/data/models/{model}.toml", out, settings)
         return self.folder / out / f"{model}.h5"
 
     def name(self, path):

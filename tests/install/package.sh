@@ -45,7 +45,7 @@ test -s "$root/usr/share/man/man1/flexneck.1"
 test -s "$root/usr/share/bash-completion/completions/flexneck"
 
 echo '== Python'
-cp "$sources/tests/pipeline/python/documented_test.py" "$sources/tests/pipeline/fmu/fmu_test.py" "$root/tmp"
+cp "$sources/tests/pipeline/python/documented_test.py" "$sources/tests/pipeline/exchange/fmu/fmu_test.py" "$root/tmp"
 inside sh -c 'apt-get install -y --no-install-recommends /tmp/python3-flexneck_*.deb' >"$out/apt-python.log" 2>&1
 inside sh -c 'cd /usr/share/doc/python3-flexneck/examples && test -s ../README.md &&
   for each in [!p]*.py p[!l]*.py; do python3 -B "$each" /tmp/drawn || exit 1; done' >"$out/python.log" 2>&1

@@ -21,8 +21,14 @@ DOORS = {
 
 def folders_of(room):
     """The folders of sources in the order of the table."""
-    rows = re.findall(r"^\| `([a-z_]+)/`", (ROOT / room / "README.md").read_text(), re.MULTILINE)
+    rows = re.findall(r"^\| `([a-z_/]+)/`", (ROOT / room / "README.md").read_text(), re.MULTILINE)
     return [name for name in rows if sources_in(ROOT / room / name)]
+
+
+def folder_of(header, folders):
+    """The longest of the folders that the header of a room is in, or "" for the room itself."""
+    path = header.split("/", 1)[1]
+    return max((name for name in folders if path.startswith(name + "/")), key=len, default="")
 
 
 def sources_in(folder):
@@ -31,11 +37,13 @@ def sources_in(folder):
 
 def problems_of(room, earlier):
     folders = folders_of(room)
-    for missing in {path.name for path in (ROOT / room).iterdir() if sources_in(path)} - set(folders):
+    tops = {name.split("/")[0] for name in folders}
+    for missing in {path.name for path in (ROOT / room).iterdir() if sources_in(path)} - tops:
         yield f"{room}/README.md: the table of folders lacks {missing}/"
     for source in sources_in(ROOT / room):
-        path = source.relative_to(ROOT)
-        at = folders.index(path.parts[1]) if path.parts[1] in folders else len(folders)
+        path = source.relative_to(ROOT).as_posix()
+        mine = folder_of(path, folders)
+        later = folders[folders.index(mine) + 1:] if mine else []
         for name in re.findall(r'^ *#include "([^"]+)"', source.read_text(), re.MULTILINE):
             to, folder = name.split("/")[0], name.split("/")[1]
             if to not in DOORS or not list(ROOT.glob(name + "*")):
@@ -44,8 +52,8 @@ def problems_of(room, earlier):
                 yield f"{path}: includes {name} of a later room"
             elif to != room and room != "pipeline" and folder not in DOORS[to]:
                 yield f"{path}: includes {name}, which is no door of {to}/"
-            elif to == room and folder in folders[at + 1:]:
-                yield f"{path}: includes {name} of a folder below {path.parts[1]}/"
+            elif to == room and folder_of(name, folders) in later:
+                yield f"{path}: includes {name} of a folder below {mine}/"
 
 
 def main():

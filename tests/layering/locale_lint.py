@@ -23,7 +23,7 @@ INSTEAD = {
 }
 # These files write hexadecimal digits only, or use a stream with the locale of C.
 EXCEPT = {"geometry/foundation/content_hash.cpp", "geometry/foundation/printable.cpp",
-          "pipeline/document/toml_source.cpp"}
+          "pipeline/language/document/toml_source.cpp"}
 
 
 def in_sources():

@@ -30,8 +30,8 @@ ROOMS = {
     "fe_modal": (["fe_modal"], ["fe_modal", "modal_body", "corner_fields", "ranks", "golden"]),
     "multibody": (["multibody"], ["multibody", "multibody_system", "multibody_runs", "mass_ratios", "reference",
                                   "golden"]),
-    "pipeline": (["pipeline/experiments", "pipeline/model", "pipeline/output", "pipeline/verification",
-                  "pipeline/verdict"],
+    "pipeline": (["pipeline/experiments", "pipeline/language/model", "pipeline/results/tables", "pipeline/experiments/verification",
+                  "pipeline/laboratory/verdict"],
                  ["pipeline", "verdict", "models", "command", "chain", "report", "golden"]),
 }
 SCRIPTS = {"golden"}  # tests without a program of their own, which run the command

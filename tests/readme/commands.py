@@ -56,7 +56,7 @@ def readmes(root):
     found = [read(path, root) for path in paths]
     known = {command for readme in found for command in readme.commands}
     heads = Readme("heads of shipped files")
-    for folder in ("pipeline/studies", "pipeline/studies/fits", "pipeline/models", "geometry/examples"):
+    for folder in ("pipeline/data/studies", "pipeline/data/studies/fits", "pipeline/data/models", "geometry/examples"):
         for path in sorted((root / folder).glob("*.toml")):
             for command in re.findall(rf"^#   ({PROGRAMS}.*)$", path.read_text(), re.MULTILINE):
                 if command not in known | set(heads.commands) and not SYNOPSIS.search(command):

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/study/study.h"
+#include "pipeline/language/study/study.h"
 #include "tests/support/beam_body.h"
 
 namespace flexneck::testing {

@@ -6,7 +6,7 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "multibody/simulation/simulation.h"
-#include "pipeline/model/model_file.h"
+#include "pipeline/language/model/model_file.h"
 #include "tests/support/model_text.h"
 
 namespace flexneck::testing {

@@ -6,7 +6,7 @@
 
 #include "fe_modal/body/modal_body_check.h"
 #include "geometry/foundation/error.h"
-#include "pipeline/isolation/result_files.h"
+#include "pipeline/process/result_files.h"
 #include "pipeline/python/bindings/arrays.h"
 #include "pipeline/python/bindings/bindings.h"
 #include "pipeline/python/bindings/computing.h"

@@ -6,16 +6,16 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
-#include "pipeline/commands/execute.h"
-#include "pipeline/commands/exports/export_formats.h"
-#include "pipeline/document/key_reference.h"
-#include "pipeline/document/shipped_files.h"
-#include "pipeline/model/model_file.h"
-#include "pipeline/output/result_table.h"
+#include "pipeline/cli/execute.h"
+#include "pipeline/exchange/export_formats.h"
+#include "pipeline/experiments/verification/verification.h"
+#include "pipeline/language/document/key_reference.h"
+#include "pipeline/language/document/shipped_files.h"
+#include "pipeline/language/model/model_file.h"
+#include "pipeline/parameter_studies/sampling/interrupt.h"
+#include "pipeline/process/result_table.h"
 #include "pipeline/python/bindings/bindings.h"
 #include "pipeline/python/bindings/computing.h"
-#include "pipeline/sampling/interrupt.h"
-#include "pipeline/verification/verification.h"
 
 namespace flexneck::python {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "mesher/mesh/mesh_summary.h"
-#include "pipeline/isolation/result_files.h"
+#include "pipeline/process/result_files.h"
 #include "pipeline/python/bindings/arrays.h"
 #include "pipeline/python/bindings/bindings.h"
 #include "pipeline/python/bindings/computing.h"

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "geometry/foundation/names.h"
-#include "pipeline/commands/exports/fmu_export.h"
-#include "pipeline/commands/simulated_model.h"
-#include "pipeline/document/shipped_files.h"
-#include "pipeline/folder/folder_lock.h"
+#include "pipeline/cli/simulated_model.h"
+#include "pipeline/exchange/fmu_export.h"
+#include "pipeline/language/document/shipped_files.h"
 #include "pipeline/python/bindings/arrays.h"
 #include "pipeline/python/bindings/bindings.h"
 #include "pipeline/python/bindings/computing.h"
+#include "pipeline/run/folder_lock.h"
 
 namespace flexneck::python {
 

@@ -4,10 +4,10 @@
 #include <string>
 
 #include "geometry/foundation/units.h"
+#include "pipeline/laboratory/rating/cora.h"
+#include "pipeline/laboratory/rating/iso18571.h"
+#include "pipeline/laboratory/rating/nij.h"
 #include "pipeline/python/bindings/bindings.h"
-#include "pipeline/rating/cora.h"
-#include "pipeline/rating/iso18571.h"
-#include "pipeline/rating/nij.h"
 
 namespace flexneck::python {
 

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/isolation/result_files.h"
-#include "pipeline/output/csv_output.h"
+#include "pipeline/process/result_files.h"
 #include "pipeline/python/bindings/arrays.h"
 #include "pipeline/python/bindings/bindings.h"
 #include "pipeline/python/bindings/computing.h"
+#include "pipeline/results/tables/csv_output.h"
 
 namespace flexneck::python {
 

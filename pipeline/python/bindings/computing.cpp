@@ -13,8 +13,8 @@
 #include "fe_modal/algebra/petsc_session.h"
 #include "fe_modal/algebra/rank_session.h"
 #include "geometry/foundation/error.h"
-#include "pipeline/evaluation/serial_thread.h"
-#include "pipeline/sampling/interrupt.h"
+#include "pipeline/parameter_studies/evaluation/serial_thread.h"
+#include "pipeline/parameter_studies/sampling/interrupt.h"
 
 namespace flexneck::python {
 

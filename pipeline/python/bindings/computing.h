@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/console/console.h"
+#include "pipeline/process/console.h"
 
 namespace flexneck::python {
 

@@ -2,7 +2,7 @@
 // Target: curves to be rated. The first line may name the column after a #.
 #include <cmath>
 
-#include "pipeline/document/curve_file.h"
+#include "pipeline/laboratory/curve_file.h"
 #include "tests/reliability/fuzz/input_folder.h"
 
 using namespace flexneck;

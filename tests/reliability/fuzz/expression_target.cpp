@@ -2,7 +2,7 @@
 // Target: functions of time.
 #include <cmath>
 
-#include "pipeline/model/expression.h"
+#include "pipeline/language/model/expression.h"
 #include "tests/reliability/fuzz/input_folder.h"
 
 using namespace flexneck;

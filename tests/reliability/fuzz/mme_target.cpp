@@ -4,9 +4,9 @@
 #include <bit>
 #include <cstdint>
 
-#include "pipeline/document/curve_file.h"
-#include "pipeline/iso_mme/channel_text.h"
-#include "pipeline/iso_mme/test_folder.h"
+#include "pipeline/laboratory/curve_file.h"
+#include "pipeline/laboratory/iso_mme/channel_text.h"
+#include "pipeline/laboratory/iso_mme/test_folder.h"
 #include "tests/reliability/fuzz/input_folder.h"
 
 using namespace flexneck;

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "fe_modal/body/modal_body_file.h"
-#include "pipeline/model/model_file.h"
+#include "pipeline/language/model/model_file.h"
 #include "tests/reliability/fuzz/input_folder.h"
 #include "tests/support/point_mass_body.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/verification/reference.h"
+#include "pipeline/experiments/verification/reference.h"
 #include "tests/reliability/fuzz/input_folder.h"
 
 using namespace flexneck;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "pipeline/verdict/regulation.h"
+#include "pipeline/language/study/regulation.h"
 #include "tests/reliability/fuzz/input_folder.h"
 
 using namespace flexneck;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Target: JSON files that report, compare and info read, tables of results and verifications.
-#include "pipeline/output/result_table.h"
-#include "pipeline/verification/verification.h"
+#include "pipeline/experiments/verification/verification.h"
+#include "pipeline/process/result_table.h"
 #include "tests/reliability/fuzz/input_folder.h"
 
 using namespace flexneck;

@@ -14,14 +14,14 @@ WORDS = {
     "deck": ["mesher/exchange/inp_", "mesher/exchange/abaqus"],
     "survey": ["mesher/exchange/nastran", "mesher/exchange/unv", "mesher/exchange/left_out"],
     "signature": ["mesher/exchange/file_signature"],
-    "study": ["pipeline/study/", "pipeline/document/", "pipeline/model/resistance", "fe_modal/body/basis_kind"],
-    "settings": ["pipeline/study/", "pipeline/document/"],
-    "model": ["pipeline/model/", "pipeline/document/"],
-    "reference": ["pipeline/verification/reference", "pipeline/document/study_node"],
-    "regulation": ["pipeline/verdict/regulation", "pipeline/document/study_node"],
-    "results": ["pipeline/output/result_table", "pipeline/verification/", "pipeline/output/prov"],
+    "study": ["pipeline/language/study/", "pipeline/language/document/", "pipeline/language/model/resistance", "fe_modal/body/basis_kind"],
+    "settings": ["pipeline/language/study/", "pipeline/language/document/"],
+    "model": ["pipeline/language/model/", "pipeline/language/document/"],
+    "reference": ["pipeline/experiments/verification/reference", "pipeline/language/document/study_node"],
+    "regulation": ["pipeline/laboratory/verdict/regulation", "pipeline/language/document/study_node"],
+    "results": ["pipeline/results/tables/result_table", "pipeline/experiments/verification/", "pipeline/results/tables/prov"],
     "matrix": ["fe_modal/exchange/matrix_market"],
-    "mme": ["pipeline/iso_mme/"],
+    "mme": ["pipeline/laboratory/iso_mme/"],
     "body": ["fe_modal/exchange/mbdyn_fem", "fe_modal/exchange/sid_fem"],
 }
 TOML = ['"""', "'''", "[[", "]]", "[", "]", "{ value = ", ", origin = \"published\"", " }", " = ",
@@ -263,8 +263,8 @@ def _scripts():
 def inputs():
     """Sound inputs, as bytes, by target."""
     import sound_files  # beside the folder of this file
-    studies = _files("pipeline/studies", ".toml") + _files("geometry/examples", ".toml")
-    models = _files("pipeline/models", ".toml") + [sound_files.MODEL.replace("bar.end", "bar.tip")]
+    studies = _files("pipeline/data/studies", ".toml") + _files("geometry/examples", ".toml")
+    models = _files("pipeline/data/models", ".toml") + [sound_files.MODEL.replace("bar.end", "bar.tip")]
     study = sound_files.STUDY.format(file="bar.msh", unit="", part="bar", held="clamp", tip="tip")
     petsc = struct.pack(">4i2i3i3d", 1211216, 2, 2, 3, 2, 1, 0, 1, 1, 4, -1, 3)
     texts = {
@@ -273,15 +273,15 @@ def inputs():
         "expression": EXPRESSIONS,
         "model": [part for text in models for part in _tables_of(_beside(text))],
         "mme": [MME_CHANNEL, MME_INDEX + "====\n" + MME_CHANNEL],
-        "reference": [_text_of("pipeline/verification/hybrid3.toml")],
-        "regulation": [_text_of(f"pipeline/regulations/572.{part}.toml") for part in (33, 123, 133)],
+        "reference": [_text_of("pipeline/data/verification/hybrid3.toml")],
+        "regulation": [_text_of(f"pipeline/data/regulations/572.{part}.toml") for part in (33, 123, 133)],
         "results": [json.dumps(TABLES), json.dumps(VERIFICATION, indent=1)],
         "settings": SETTINGS,
         "study": [part for text in studies + [study] for part in _tables_of(_beside(text))]
                  + ['include = ["hybrid3_c.toml"]\n[modes]\ncount = 3\n'],
         "survey": [NASTRAN, UNIVERSAL],
         "table": [sound_files.PULSE, "#b\nt [s], a [gn], b [m/s^2]\r\n# c\r\n\r\n0, 1, 2\r\n1, 2, 3",
-                  _text_of("pipeline/models/sled_pulse.csv")],
+                  _text_of("pipeline/data/models/sled_pulse.csv")],
     }
     seeds = {target: [text.encode() for text in each] for target, each in texts.items()}
     seeds["quantity"] = _quantities(studies + models)

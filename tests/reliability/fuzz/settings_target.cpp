@@ -2,7 +2,7 @@
 // Target: values set on the command line, one per line, for a study of a few keys.
 #include <sstream>
 
-#include "pipeline/document/study_document.h"
+#include "pipeline/language/document/study_document.h"
 #include "tests/reliability/fuzz/input_folder.h"
 
 using namespace flexneck;

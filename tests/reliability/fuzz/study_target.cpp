@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "pipeline/study/study.h"
+#include "pipeline/language/study/study.h"
 #include "tests/reliability/fuzz/input_folder.h"
 
 using namespace flexneck;

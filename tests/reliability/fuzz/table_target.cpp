@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/model/csv_table.h"
+#include "pipeline/language/model/csv_table.h"
 #include "tests/reliability/fuzz/input_folder.h"
 
 using namespace flexneck;

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/cli/command_line.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include "geometry/foundation/error.h"
+#include "geometry/foundation/names.h"
+#include "pipeline/cli/command_reference.h"
+#include "pipeline/version.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+/// Adds an option that stands for a value of the study.
+void add_setting(CLI::App& app, CommandLine& line, const char* name, const char* label,
+                 const std::string& key, const std::string& help) {
+  app.add_option_function<std::string>(
+         name,
+         [&line, key](const std::string& value) { line.settings.push_back(key + "=" + value); },
+         help + "; as --set " + key)
+      ->option_text(label);
+}
+
+void add_folder(CLI::App& app, CommandLine& line) {
+  app.add_option("-o,--out,--output", line.folder, "Folder for results")->option_text("DIR [out]");
+}
+
+void add_optional_folder(CLI::App& app, CommandLine& line) {
+  line.folder.clear();
+  app.add_option("-o,--out,--output", line.folder, "Folder for a JSON file of the result")
+      ->option_text("DIR")
+      ->check([](const std::string& name) { return name.empty() ? "expected a folder" : ""; });
+}
+
+void add_settings(CLI::App& app, CommandLine& line) {
+  app.add_option("--set", line.settings, "Use another value, e.g. modes.count=12")
+      ->option_text("KEY=VALUE ...")
+      ->allow_extra_args(false);
+}
+
+void add_mesh_settings(CLI::App& app, CommandLine& line) {
+  add_setting(app, line, "--preset", "NAME", "mesh.preset", "Mesh divisions: default or paper");
+  add_setting(app, line, "--refine", "N", "mesh.refine",
+              "Cut every element in N + 1 in each direction");
+}
+
+void add_modes_settings(CLI::App& app, CommandLine& line) {
+  app.add_flag_function(
+      "--check",
+      [&line](std::int64_t /*times*/) { line.settings.emplace_back("modes.check=true"); },
+      "Check that no mode is missing, estimate the mesh's error");
+  add_setting(app, line, "--solver", "NAME", "modes.solver", "cholmod in one process, or mumps");
+}
+
+/// List of the names in TOML syntax.
+std::string list_of(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "'" : ", '") + name + "'";
+  return "[" + list + "]";
+}
+
+void add_cases(CLI::App& app, CommandLine& line) {
+  app.add_option_function<std::vector<std::string>>(
+         "--case",
+         [&line](const std::vector<std::string>& names) {
+           line.settings.push_back("cases=" + list_of(names));
+         },
+         "Run this case only, and others so named; as --set cases")
+      ->option_text("NAME ...")
+      ->allow_extra_args(false);
+}
+
+void add_sensitivity(CLI::App& app, CommandLine& line) {
+  app.add_flag("--sensitivity", line.sensitivity,
+               "Derivatives by all dimensions and material constants");
+}
+
+void add_redo(CLI::App& app, CommandLine& line) {
+  app.add_flag("--force", line.redo, "Redo what has not changed, too");
+}
+
+void add_keep(CLI::App& app, CommandLine& line) {
+  app.add_flag("--keep", line.keep,
+               "The folder keeps this study and these values for the commands to come");
+}
+
+void add_show(CLI::App& app, CommandLine& line) {
+  app.add_flag("--dry-run,--show", line.show, "Print dimensions and a section, mesh nothing");
+}
+
+void add_target(CLI::App& app, CommandLine& line) {
+  app.add_option("--to", line.target, "File to write; of ISO-MME TEST/TEST.mme")
+      ->option_text("FILE");
+  app.add_flag("--binary", line.is_binary, "A .msh in bytes instead of text");
+}
+
+void add_curves(CLI::App& app, CommandLine& line) {
+  CurveChoice& curves = line.curves;
+  const auto add = [&](const char* name, std::string& value, const char* label, const char* help) {
+    app.add_option(name, value, help)->option_text(label);
+  };
+  add("--channel", curves.channel, "NAME",
+      "Column of both files, where there are several; of ISO-MME the code");
+  add("--reference-channel", curves.reference_channel, "NAME",
+      "Column of the reference, where its name is another one");
+  add("--unit", curves.unit, "UNIT", "Of the values in a file that names no units");
+  add("--from", curves.from, "TIME", "Rate from there on, e.g. '20 ms'; else what both cover");
+  add("--to", curves.to, "TIME", "Rate up to there");
+}
+
+void add_neck_loads(CLI::App& app, CommandLine& line) {
+  NeckLoadChoice& loads = line.neck_loads;
+  const auto add = [&](const char* name, std::string& value, const char* label, const char* help) {
+    return app.add_option(name, value, help)->option_text(label);
+  };
+  add("--force", loads.force, "NAME", "Column of the axial force, tension positive")->required();
+  add("--moment", loads.moment, "NAME", "Column of the moment My, flexion positive")->required();
+  add("--shear", loads.shear, "NAME",
+      "Column of Fx, if the moment is that of a load cell above the condyles");
+  add("--dummy", loads.dummy, "NAME [50th-male]", "50th-male or 5th-female");
+}
+
+void add_shards(CLI::App& app, CommandLine& line) {
+  app.add_option("--shard", line.shares.shard, "Compute a part of the rows only, e.g. 2/8")
+      ->option_text("I/N");
+}
+
+void add_threads(CLI::App& app, CommandLine& line) {
+  app.add_option("--threads", line.shares.threads,
+                 "At most; as many as processors if not given, one a rank")
+      ->option_text("N")
+      ->check(CLI::Range(1, 1024));
+}
+
+struct OptionRow {
+  CommandOption option;
+  void (*add)(CLI::App&, CommandLine&);
+};
+constexpr std::array<OptionRow, 15> kOptions = {
+    {{CommandOption::folder, add_folder},
+     {CommandOption::optional_folder, add_optional_folder},
+     {CommandOption::curves, add_curves},
+     {CommandOption::neck_loads, add_neck_loads},
+     {CommandOption::shards, add_shards},
+     {CommandOption::threads, add_threads},
+     {CommandOption::settings, add_settings},
+     {CommandOption::mesh_settings, add_mesh_settings},
+     {CommandOption::modes_settings, add_modes_settings},
+     {CommandOption::cases, add_cases},
+     {CommandOption::sensitivity, add_sensitivity},
+     {CommandOption::redo, add_redo},
+     {CommandOption::keep, add_keep},
+     {CommandOption::show, add_show},
+     {CommandOption::target, add_target}}};
+
+void describe(CLI::App& app, const Command& command, CommandLine& line) {
+  app.add_option("files", line.files, command.files.help)->option_text(command.files.label);
+  for (const OptionRow& row : kOptions) {
+    if (std::count(command.options.begin(), command.options.end(), row.option) > 0)
+      row.add(app, line);
+  }
+  CLI::Option* const quiet =
+      app.add_flag("-q,--quiet", line.is_quiet, "Print errors and warnings only");
+  app.add_flag("-v,--verbose", line.is_verbose, "Print all tables, and what each stage does")
+      ->excludes(quiet);
+}
+
+std::string help() {
+  std::string text = fmt::format("flexneck: {}.\nUsage: {}\n\nCommands:\n", kPurpose, kUsage);
+  for (const Command& command : commands())
+    text += fmt::format("  {:<10}  {}\n", command.name, command.help);
+  return text +
+         "\n'flexneck COMMAND --help' lists the options of a command.\n"
+         "'flexneck --version' tells the version and the sources that it is built from,\n"
+         "'flexneck --man' and 'flexneck --bash-completion' print what their names say.\n" +
+         kExitCodes;
+}
+
+/// Commands that have an option, such as "mesh, run".
+std::string owners_of(const std::string& option) {
+  std::string owners;
+  for (const Command& command : commands()) {
+    CommandLine unused;
+    CLI::App app;
+    describe(app, command, unused);
+    if (app.get_option_no_throw(option) != nullptr)
+      owners += (owners.empty() ? "" : ", ") + command.name;
+  }
+  return owners;
+}
+
+/// Text " (did you mean '--set'?)" for the first word that is no option of the command.
+std::string near_option(const Command& command, const std::vector<std::string>& words) {
+  std::vector<std::string> names;
+  for (const OptionText& option : options_of(command))
+    names.insert(names.end(), option.names.begin(), option.names.end());
+  for (const std::string& word : words) {
+    const std::string option = word.substr(0, word.find('='));
+    if (!option.starts_with("--") || std::count(names.begin(), names.end(), option) > 0) continue;
+    return did_you_mean(names, option);
+  }
+  return {};
+}
+
+[[noreturn]] void refuse(const CLI::App& app, const Command& command,
+                         const std::vector<std::string>& words, const std::string& problem) {
+  for (const std::string& word : words) {
+    const std::string option = word.substr(0, word.find('='));
+    if (!option.starts_with('-') || app.get_option_no_throw(option) != nullptr) continue;
+    const std::string owners = owners_of(option);
+    if (owners.empty()) continue;
+    throw InputError(option + " belongs to the command " + owners + ", found with '" +
+                     command.name + "'");
+  }
+  throw InputError(command.name + ": " + problem + near_option(command, words) + "; 'flexneck " +
+                   command.name + " --help' lists its options");
+}
+
+void parse_options(const std::vector<std::string>& words, CommandLine& line) {
+  const Command& command = *line.command;
+  CLI::App app(command.help, "flexneck " + command.name);
+  describe(app, command, line);
+  try {
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+  } catch (const CLI::CallForHelp&) {
+    line.answer = app.help();
+    line.answer.erase(line.answer.find_last_not_of('\n') + 1);
+  } catch (const CLI::ParseError& error) {
+    refuse(app, command, words, error.what());
+  }
+}
+
+/// Index of the command in the words; the flags -q and -v may precede it.
+std::size_t place_of_command(const std::vector<std::string>& words) {
+  constexpr std::array<std::string_view, 4> kFlags = {"-q", "--quiet", "-v", "--verbose"};
+  const auto found = std::find_if(words.begin(), words.end(), [&](const std::string& word) {
+    return std::find(kFlags.begin(), kFlags.end(), word) == kFlags.end();
+  });
+  return static_cast<std::size_t>(found - words.begin());
+}
+
+void refuse_late_command(const CommandLine& line) {
+  for (const std::string& file : line.files)
+    for (const Command& command : commands())
+      if (command.name == file)
+        throw InputError("the command comes first: 'flexneck " + file + "', then its options");
+}
+
+}  // namespace
+
+std::vector<OptionText> options_of(const Command& command) {
+  CommandLine unused;
+  CLI::App app;
+  describe(app, command, unused);
+  std::vector<OptionText> options;
+  for (const CLI::Option* const option : app.get_options()) {
+    if (!option->nonpositional()) continue;
+    std::vector<std::string> names;
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    options.push_back({names, option->get_option_text(), option->get_description()});
+  }
+  return options;
+}
+
+CommandLine parse_command_line(const std::vector<std::string>& words) {
+  CommandLine line;
+  for (const std::string& word : words) line.text += (line.text.empty() ? "" : " ") + word;
+  const std::vector<std::string> given(words.begin() + 1, words.end());
+  const std::size_t place = place_of_command(given);
+  const std::string first = place < given.size() ? given[place] : "";
+  if (first == "-h" || first == "--help") {
+    line.answer = help();
+  } else if (first == "--version") {
+    line.answer = std::string("flexneck ") + kVersion + " (" + kGitHash + ")";
+  } else if (first == "--man") {
+    line.answer = man_page();
+  } else if (first == "--bash-completion") {
+    line.answer = bash_completion();
+  } else if (first.empty() || first.front() == '-') {
+    line.command = &commands().front();
+    parse_options(given, line);
+    refuse_late_command(line);
+  } else {
+    line.command = &commands()[find_name(names_of(commands()), first, "command")];
+    std::vector<std::string> others = given;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(place));
+    parse_options(others, line);
+  }
+  return line;
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/language/study/measured_section.h"
+
+#include "pipeline/language/study/curve_table.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+std::vector<std::string> figures() { return {"peak", "time of peak", "first zero crossing"}; }
+
+constexpr auto kCurveKeys =
+    joined(std::to_array<Key>({
+               Key::text("channel", kRequired, "Channel of the case's run that was measured"),
+               curve_file_key(kRequired),
+               Key::quantity("from", "s", kNone, "Time of the case from which the curve is rated"),
+               Key::quantity("to", "s", kNone, "Time of the case up to which it is"),
+           }),
+           kCurveTableKeys);
+
+constexpr auto kMeasuredCorridorKeys =
+    joined(std::to_array<Key>({Key::text("channel", kRequired, "Channel of the case's run")}),
+           kCorridorKeys);
+
+constexpr Key kLimitKeys[] = {
+    Key::text("channel", kRequired, "Channel of the case's run"),
+    Key::text("figure", kRequired, "What of the channel is limited", {.choices = figures}),
+    Key::text("low", kNone, "Least value with its unit, such as \"64 deg\""),
+    Key::text("high", kNone, "Largest value with its unit"),
+};
+
+constexpr Key kMeasuredKeys[] = {
+    Key::tables("curve", "Measured curves", kCurveKeys),
+    Key::tables("corridor", "Where curves should run", kMeasuredCorridorKeys),
+    Key::tables("limit", "Where peaks, their times and zero crossings should lie", kLimitKeys),
+};
+
+MeasuredCurve read_measured_curve(const StudyTable& table) {
+  MeasuredCurve measured;
+  measured.channel = table.text("channel");
+  measured.curve = read_curve_table(table);
+  if (table.has("from")) measured.from_s = table.quantity("from");
+  if (table.has("to")) measured.to_s = table.quantity("to");
+  table.finish();
+  return measured;
+}
+
+MeasuredCorridor read_measured_corridor(const StudyTable& table) {
+  MeasuredCorridor measured{read_corridor(table), table.text("channel")};
+  table.finish();
+  return measured;
+}
+
+MeasuredLimit read_limit(const StudyTable& table) {
+  MeasuredLimit limit{table.text("channel"),
+                      static_cast<MeasuredLimit::Figure>(table.choice("figure")), table.text("low"),
+                      table.text("high"), table};
+  if (limit.low.empty() && limit.high.empty()) table.refuse("low", "expected low or high, or both");
+  table.finish();
+  return limit;
+}
+
+}  // namespace
+
+std::span<const Key> measured_keys() { return kMeasuredKeys; }
+
+MeasuredTest read_measured(const StudyTable& test) {
+  MeasuredTest measured;
+  for (const StudyTable& table : test.tables("curve"))
+    measured.curves.push_back(read_measured_curve(table));
+  for (const StudyTable& table : test.tables("corridor"))
+    measured.corridors.push_back(read_measured_corridor(table));
+  for (const StudyTable& table : test.tables("limit")) measured.limits.push_back(read_limit(table));
+  return measured;
+}
+
+}  // namespace flexneck::pipeline

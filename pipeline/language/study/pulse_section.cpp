@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multibody/numerics/time_table.h"
+#include "pipeline/language/model/model_sections.h"
+#include "pipeline/language/study/sections.h"
+
+namespace flexneck::pipeline {
+
+namespace {
+
+constexpr auto kPulseKeys = joined(
+    std::to_array<Key>({
+        Key::text("name", kRequired, "Name of the pulse"),
+        Key::quantities("times", "s", kNone, "Times of the decelerations, from the arm's impact"),
+        Key::quantities("deceleration", "m/s^2", kNone,
+                        "Deceleration at each time; linear between them, zero outside"),
+    }),
+    kCsvKeys);
+
+}  // namespace
+
+std::span<const Key> pulse_keys() { return kPulseKeys; }
+
+PulseSection read_pulse(const StudyTable& table) {
+  PulseSection pulse;
+  pulse.name = table.text("name");
+  TableColumns columns = read_columns(table, {"times", "s", "deceleration", "m/s^2"});
+  const char* const key = table.has("table") ? "table" : "times";
+  // The table itself checks the times.
+  at_key(table, key, [&] {
+    return multibody::TimeTable(columns.x, columns.y, multibody::TimeTable::Outside::zero);
+  });
+  if (columns.x.size() < 2 || columns.x.front() < 0)
+    table.refuse(key, "expected two times or more, none before 0, when the arm is struck");
+  pulse.times_s = std::move(columns.x);
+  pulse.deceleration_m_s2 = std::move(columns.y);
+  table.finish();
+  return pulse;
+}
+
+}  // namespace flexneck::pipeline

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "pipeline/language/document/study_document.h"
+#include "pipeline/language/study/case_tables.h"
+#include "pipeline/language/study/study.h"
+
+namespace flexneck::pipeline {
+
+// Keys of the sections.
+std::span<const Key> geometry_keys();
+std::span<const Key> materials_keys();
+std::span<const Key> mesh_keys();
+std::span<const Key> matrices_keys();
+std::span<const Key> interface_keys();
+/// Keys of [modes], including those of its tables.
+std::span<const Key> modes_keys();
+/// Keys of [[modes.coupling]], [[modes.support]], …
+std::span<const Key> modes_connection_keys();
+std::span<const Key> load_keys();
+std::span<const Key> pulse_keys();
+std::span<const Key> case_keys();
+std::span<const Key> variant_keys();
+std::span<const Key> dummy_keys();
+std::span<const Key> test_keys();
+
+StructureSection read_structure(const StudyTable& geometry, const StudyTable& mesh);
+MatricesSection read_matrices(const StudyTable& matrices);
+InterfaceSection read_interface(const StudyTable& interface);
+fe_modal::Load read_load(const StudyTable& load);
+/// Reads the key slits. @throws InputError for an unknown state.
+geometry::SlitState read_slit_state(const StudyTable& geometry);
+/// Reads [geometry.materials].
+MaterialModels read_materials(const StudyTable& geometry, std::vector<mesher::Material>& materials,
+                              std::map<std::string, std::string>& material_of_part);
+/// Reads the keys partitions and node_order of [mesh].
+MeshOrders read_mesh_orders(const StudyTable& mesh);
+/// Reads the key formulation. @throws InputError for an unknown formulation.
+fe_modal::Formulation read_formulation(const StudyTable& table);
+ModesSection read_modes(const StudyTable& modes);
+ModesConnections read_modes_connections(const StudyTable& modes);
+/// Reads a pulse: a CSV file by the key table, which is recorded by FilesRead, or times and
+/// deceleration.
+PulseSection read_pulse(const StudyTable& pulse);
+/// Keys of the tables [[body]], [[marker]], … in a study.
+std::vector<Key> model_table_keys();
+/// Cases of a study whose models and tests are read and checked completely.
+enum class CasesRead {
+  all,
+  chosen  ///< chosen by the key cases, if the whole study has been read before
+};
+/// Reads [[case]] over [pendulum] or [static], and the cases that [[variant]] makes of them.
+std::vector<CaseSection> read_cases(const StudyTable& root, const StudyModels& models,
+                                    CasesRead which);
+/// Returns whether a name matches a pattern, which may end in a *.
+bool fits(const std::string& name, const std::string& pattern);
+/// Names of the cases that the key cases chooses, including base cases of variants; all without the
+/// key. @throws InputError for a name that no case has.
+std::set<std::string> chosen_cases(const StudyTable& root, const std::vector<CaseSection>& cases);
+/// Removes from the study the cases not chosen, and their tests.
+void select_cases(const StudyTable& root, Study& study);
+/// Reads [dummy] and [[test]] for the cases that have been read.
+/// @param known  tests of an earlier reading of the study, whose regulations are not read again
+void read_tests(const StudyTable& root, const std::vector<TestSection>& known, CasesRead which,
+                Study& study);
+void read_solver(const StudyTable& solver, Study& study);
+
+}  // namespace flexneck::pipeline
