@@ -57,7 +57,7 @@ void AtomicFile::create() {
         FileDescriptor(uninterrupted([&] { return ::open(name.c_str(), kFlags, kPermissions); }));
     return static_cast<bool>(file_);
   });
-  cleanup_ = SignalCleanup(SignalCleanup::Action::remove_file, temporary_);
+  cleanup_ = SignalCleanup(SignalCleanup::Action::remove, temporary_);
 }
 
 void AtomicFile::name() {
@@ -68,7 +68,7 @@ void AtomicFile::name() {
     return ::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
   });
   if (temporary_.empty()) fail(errno);
-  cleanup_ = SignalCleanup(SignalCleanup::Action::remove_file, temporary_);
+  cleanup_ = SignalCleanup(SignalCleanup::Action::remove, temporary_);
 }
 
 void AtomicFile::remove_temporary() noexcept {
@@ -124,6 +124,7 @@ void AtomicFile::commit(Durability durability) {
   if (durability == Durability::content && !sync(file_.get())) fail(errno);
   name();
   if (!file_.close()) fail(errno);
+  const SignalHold hold;
   if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(errno);
   temporary_.clear();
   cleanup_.reset();

@@ -10,6 +10,7 @@
 #include "geometry/foundation/atomic_file.h"
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/fresh_name.h"
+#include "geometry/foundation/held_folder.h"
 
 namespace flexneck {
 
@@ -26,6 +27,7 @@ fs::path parent_of(const fs::path& path) {
 }  // namespace
 
 AtomicFolder::AtomicFolder(fs::path path) : path_(std::move(path)) {
+  remove_abandoned(parent_of(path_), kFreshPrefix);
   const SignalHold hold;
   temporary_ = take_fresh_name(parent_of(path_), [](const fs::path& name) {
     return ::mkdir(name.c_str(), kPermissions) == 0;
@@ -33,11 +35,12 @@ AtomicFolder::AtomicFolder(fs::path path) : path_(std::move(path)) {
   if (temporary_.empty())
     throw InputError(path_.string() + ": cannot be written (" + std::strerror(errno) +
                      "); choose another folder");
-  cleanup_ = SignalCleanup(SignalCleanup::Action::remove_folder, temporary_);
+  held_ = hold_folder(temporary_);
+  cleanup_ = SignalCleanup(SignalCleanup::Action::remove, temporary_);
 }
 
 AtomicFolder::~AtomicFolder() {
-  if (!temporary_.empty()) remove_folder(temporary_);
+  if (!temporary_.empty()) remove_whole(temporary_);
 }
 
 void AtomicFolder::commit() {
@@ -45,13 +48,14 @@ void AtomicFolder::commit() {
     return ::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), flags) == 0;
   };
   sync_folder(temporary_);
+  const SignalHold hold;
   if (take_place(0)) {  // if no folder is there, or an empty one
     temporary_.clear();
   } else if (!take_place(RENAME_EXCHANGE)) {
     throw ComputationError(path_.string() + ": cannot be written (" + std::strerror(errno) +
                            "); remove what is there, or choose another folder");
   }
-  if (!temporary_.empty()) remove_folder(std::exchange(temporary_, {}));
+  if (!temporary_.empty()) remove_whole(std::exchange(temporary_, {}));
   cleanup_.reset();
   sync_folder(parent_of(path_));
 }

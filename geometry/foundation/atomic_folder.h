@@ -4,12 +4,14 @@
 #include <filesystem>
 #include <string>
 
+#include "geometry/foundation/file_descriptor.h"
 #include "geometry/foundation/signal_cleanup.h"
 
 namespace flexneck {
 
 /// A folder of files that belong together and appear whole or not at all. They are written into a
-/// hidden folder beside it, which only a killed process leaves behind.
+/// hidden folder beside it, which only a killed process leaves behind until a later one writes
+/// there (held_folder.h).
 class AtomicFolder {
  public:
   /// @throws InputError if the parent folder does not exist or cannot be written.
@@ -27,6 +29,7 @@ class AtomicFolder {
  private:
   std::filesystem::path path_;
   std::filesystem::path temporary_;  ///< empty once the folder is in its place
+  FileDescriptor held_;
   SignalCleanup cleanup_;
 };
 

@@ -2,28 +2,33 @@
 #pragma once
 
 #include <filesystem>
+#include <mutex>
 #include <sys/types.h>
 
 namespace flexneck {
 
-/// Makes signals clean up before they end the process, except those that are handled otherwise or
-/// ignored. For programs only: a library leaves signals to its program.
+/// Starts a thread that waits for SIGINT, SIGTERM and SIGHUP. It ends the registered child
+/// processes, removes the registered paths, and lets the signal end the process; a signal with a
+/// handler only calls that handler, in this thread. A signal that is ignored stays ignored. The
+/// signals are blocked in the calling thread and in those that it starts later: call it before
+/// any other thread exists, and start programs by SpawnActions. For programs only: a library leaves
+/// signals to its program.
 void clean_up_on_signals();
 /// Runs the registered cleanups, in a program that ends otherwise than by leaving main.
 void clean_up_now() noexcept;
 
-/// Removes a folder with all its contents, as far as possible, without allocating memory.
-void remove_folder(const std::filesystem::path& folder) noexcept;
+/// Removes a file, or a folder with all its contents, as far as possible.
+void remove_whole(const std::filesystem::path& path) noexcept;
 
-/// While an object exists, signals that ask for an end wait: from the creation of a file, a folder
-/// or a child process until it is registered as a SignalCleanup. The end of the last object
-/// delivers them.
+/// While an object exists, no signal cleans up: from the creation of a file, a folder or a child
+/// process until it is registered as a SignalCleanup. Once a cleanup has begun, a new object waits
+/// for the end of the process.
 class SignalHold {
  public:
-  SignalHold() noexcept;
-  ~SignalHold();
-  SignalHold(const SignalHold&) = delete;
-  SignalHold& operator=(const SignalHold&) = delete;
+  SignalHold();
+
+ private:
+  std::unique_lock<std::recursive_mutex> lock_;
 };
 
 /// Cleans up something that would be left behind if a signal ended the process now. Otherwise its
@@ -33,14 +38,13 @@ class SignalCleanup {
   /// Actions, in the order in which they are performed.
   enum class Action : unsigned char {
     end_process,
-    remove_folder,  ///< with all its contents
-    remove_file,
+    remove,  ///< a file, or a folder with all its contents
     remove_empty_folder,
   };
 
   SignalCleanup() = default;
   /// Registers the removal of a path. `action` is not Action::end_process.
-  SignalCleanup(Action action, const std::filesystem::path& path);
+  SignalCleanup(Action action, std::filesystem::path path);
   /// Registers the end of a child process.
   explicit SignalCleanup(pid_t process);
   ~SignalCleanup() { reset(); }
@@ -52,7 +56,7 @@ class SignalCleanup {
   void reset() noexcept;
 
  private:
-  int entry_ = -1;  ///< -1: no action, or no entry left to register it
+  int entry_ = -1;  ///< number of the registered entry; -1 for none
 };
 
 }  // namespace flexneck

@@ -2,17 +2,21 @@
 #include "geometry/foundation/temporary_folder.h"
 
 #include <cstdlib>
+#include <mutex>
 #include <stdlib.h>  // mkdtemp is POSIX
 #include <system_error>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/files_read.h"
+#include "geometry/foundation/held_folder.h"
 
 namespace flexneck {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr const char* kPrefix = "flexneck-";
 
 fs::path folder_for_temporary_files() {
   std::error_code failure;
@@ -26,18 +30,22 @@ fs::path folder_for_temporary_files() {
 }  // namespace
 
 TemporaryFolder::TemporaryFolder() {
-  std::string name = (folder_for_temporary_files() / "flexneck-XXXXXX").string();
+  const fs::path parent = folder_for_temporary_files();
+  static std::once_flag once;
+  std::call_once(once, [&] { remove_abandoned(parent, kPrefix); });
+  std::string name = (parent / kPrefix).string() + "XXXXXX";
   const SignalHold hold;
   if (mkdtemp(name.data()) == nullptr) {
     throw ComputationError(name + ": a temporary folder cannot be made");
   }
   path_ = name;
-  cleanup_ = SignalCleanup(SignalCleanup::Action::remove_folder, path_);
+  held_ = hold_folder(path_);
+  cleanup_ = SignalCleanup(SignalCleanup::Action::remove, path_);
 }
 
 TemporaryFolder::~TemporaryFolder() {
   forget_reads_in(path_);
-  remove_folder(path_);
+  remove_whole(path_);
 }
 
 }  // namespace flexneck

@@ -4,12 +4,14 @@
 #include <filesystem>
 #include <string>
 
+#include "geometry/foundation/file_descriptor.h"
 #include "geometry/foundation/signal_cleanup.h"
 
 namespace flexneck {
 
 /// A new folder for this object alone. It is removed with all its contents at the end of the scope,
-/// and if a signal ends the process (signal_cleanup.h).
+/// and if a signal ends the process (signal_cleanup.h). What a killed process has left behind, a
+/// later one removes (held_folder.h).
 class TemporaryFolder {
  public:
   /// @throws InputError if TMPDIR names no folder for temporary files; ComputationError if no new
@@ -24,6 +26,7 @@ class TemporaryFolder {
 
  private:
   std::filesystem::path path_;
+  FileDescriptor held_;
   SignalCleanup cleanup_;
 };
 

@@ -206,6 +206,7 @@ int main(int argc, char** argv) {
   std::atexit(refuse_end_by_library);
   int code = kComputationFailed;
   try {
+    flexneck::clean_up_on_signals();
     code = run(argc, argv);
   } catch (...) {
     code = told_without_console();

@@ -76,7 +76,7 @@ ChildProcess::ChildProcess(const std::filesystem::path& program,
   actions.duplicate(to_write.get(), STDERR_FILENO);
   actions.close_from(STDERR_FILENO + 1);
   const SignalHold hold;
-  const int error = posix_spawn(&id_, program.c_str(), actions.get(), nullptr,
+  const int error = posix_spawn(&id_, program.c_str(), actions.get(), actions.attributes(),
                                 exec_pointers(words).data(), exec_pointers(variables).data());
   if (error != 0)
     throw ComputationError(program.string() +
@@ -124,9 +124,9 @@ ChildEnd ChildProcess::wait(const LineReceiver& on_line) {
     ended = wait4(id_, &status, is_open_ ? WNOHANG : 0, &used);
     if (ended < 0 && errno == EINTR) ended = 0;
   }
+  cleanup_.reset();  // where a signal has ended the child, this waits for the end of the process
   if (ended < 0) throw ComputationError("a child process is lost: the system has ended it");
   id_ = -1;
-  cleanup_.reset();
   while (has_output(0)) read_lines(on_line);
   if (!unread_.empty()) on_line(std::exchange(unread_, {}));
   const std::chrono::duration<double> clock = std::chrono::steady_clock::now() - start_;

@@ -15,7 +15,6 @@
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/printable.h"
-#include "geometry/foundation/signal_cleanup.h"
 
 namespace flexneck::pipeline {
 
@@ -46,7 +45,6 @@ void prepare_process() {
     // open() takes the lowest free descriptor.
     ::open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
   }
-  clean_up_on_signals();
   std::signal(SIGXFSZ, SIG_IGN);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/process/spawn_actions.h"
 
+#include <csignal>
 #include <cstring>
 #include <string>
 
@@ -14,7 +15,19 @@ void SpawnActions::require(int code) {
                            std::strerror(code));
 }
 
-SpawnActions::SpawnActions() { require(posix_spawn_file_actions_init(&actions_)); }
+SpawnActions::SpawnActions() {
+  require(posix_spawn_file_actions_init(&actions_));
+  require(posix_spawnattr_init(&attributes_));
+  sigset_t none;
+  sigemptyset(&none);
+  require(posix_spawnattr_setsigmask(&attributes_, &none));
+  require(posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK));
+}
+
+SpawnActions::~SpawnActions() {
+  posix_spawnattr_destroy(&attributes_);
+  posix_spawn_file_actions_destroy(&actions_);
+}
 
 void SpawnActions::enter(const std::filesystem::path& folder) {
   require(posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str()));

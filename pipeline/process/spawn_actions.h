@@ -7,12 +7,13 @@
 
 namespace flexneck::pipeline {
 
-/// File actions of a new process before it becomes another program, for posix_spawn(). All members
+/// File actions and attributes of a new process before it becomes another program, for
+/// posix_spawn(): it receives the signals that this process blocks (signal_cleanup.h). All members
 /// throw ComputationError if memory runs out.
 class SpawnActions {
  public:
   SpawnActions();
-  ~SpawnActions() { posix_spawn_file_actions_destroy(&actions_); }
+  ~SpawnActions();
   SpawnActions(const SpawnActions&) = delete;
   SpawnActions& operator=(const SpawnActions&) = delete;
 
@@ -22,11 +23,13 @@ class SpawnActions {
   void close_from(int first);
 
   const posix_spawn_file_actions_t* get() const { return &actions_; }
+  const posix_spawnattr_t* attributes() const { return &attributes_; }
 
  private:
   static void require(int code);
 
   posix_spawn_file_actions_t actions_{};
+  posix_spawnattr_t attributes_{};
 };
 
 }  // namespace flexneck::pipeline

@@ -93,7 +93,7 @@ void FolderLock::take() {
     refuse("is in use by " + holder() + "; wait for it");
   } while (!is_in_place());
   is_fixed_ = true;
-  lock_cleanup_ = SignalCleanup(Action::remove_file, path_);
+  lock_cleanup_ = SignalCleanup(Action::remove, path_);
 }
 
 std::string FolderLock::holder() const {

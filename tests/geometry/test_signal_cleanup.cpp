@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <functional>
@@ -7,6 +8,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "geometry/foundation/held_folder.h"
 #include "geometry/foundation/output_file.h"
 #include "geometry/foundation/signal_cleanup.h"
 #include "geometry/foundation/temporary_folder.h"
@@ -26,7 +28,8 @@ int status_after(int signal, const std::function<void()>& work) {
     std::signal(signal, SIG_DFL);  // Catch2 handles it
     clean_up_on_signals();
     work();
-    std::raise(signal);
+    ::kill(::getpid(), signal);
+    ::sleep(10);  // the waiting thread ends the process
     ::_exit(0);
   }
   int status = 0;
@@ -38,7 +41,7 @@ bool is_killed_by(int signal, int status) {
   return WIFSIGNALED(status) && WTERMSIG(status) == signal;
 }
 
-/// Fills a folder with folders and more entries than one system call lists.
+/// Fills a folder with folders and many entries.
 void fill(const fs::path& folder) {
   fs::create_directories(folder / "some" / "more");
   for (int k = 0; k < 300; ++k) {
@@ -60,11 +63,11 @@ TEST_CASE("a signal takes with it what is temporary, and nothing else") {
       fs::create_symlink(folder / "kept", folder / "full" / "link");
       fs::create_directory(folder / "empty");
       write_text(folder / "file", "x");
-      static const SignalCleanup full(Action::remove_folder, folder / "full");
-      static const SignalCleanup file(Action::remove_file, folder / "file");
+      static const SignalCleanup full(Action::remove, folder / "full");
+      static const SignalCleanup file(Action::remove, folder / "file");
       static const SignalCleanup empty(Action::remove_empty_folder, folder / "empty");
       static const SignalCleanup kept(Action::remove_empty_folder, folder / "kept");
-      static SignalCleanup moved(Action::remove_file, folder / "kept" / "file");
+      static SignalCleanup moved(Action::remove, folder / "kept" / "file");
       moved = SignalCleanup();
     });
     CHECK(is_killed_by(signal, status));
@@ -76,14 +79,11 @@ TEST_CASE("a signal takes with it what is temporary, and nothing else") {
 TEST_CASE("a signal that comes between a file and the note of it takes the file along") {
   const TemporaryFolder folder;
   const int status = status_after(SIGTERM, [&] {
-    {
-      const SignalHold outer;
-      const SignalHold hold;
-      std::raise(SIGINT);
-      write_text(folder / "file", "x");
-      static const SignalCleanup file(Action::remove_file, folder / "file");
-    }
-    write_text(folder / "later", "x");
+    const SignalHold outer;
+    const SignalHold hold;
+    ::kill(::getpid(), SIGINT);
+    write_text(folder / "file", "x");
+    static const SignalCleanup file(Action::remove, folder / "file");
   });
   CHECK(is_killed_by(SIGINT, status));
   CHECK(fs::is_empty(folder.path()));
@@ -122,10 +122,34 @@ TEST_CASE("a child process ends before its files go") {
   ::close(ends[0]);
 }
 
-TEST_CASE("a signal that is ignored stays so") {
-  const int status = status_after(SIGHUP, [] {
+TEST_CASE("a signal that is ignored stays so, and one with a handler only calls it") {
+  static volatile std::sig_atomic_t calls = 0;
+  const int status = status_after(SIGTERM, [] {
     std::signal(SIGHUP, SIG_IGN);
     clean_up_on_signals();
+    std::signal(SIGINT, [](int) { calls = calls + 1; });
+    ::kill(::getpid(), SIGHUP);
+    ::kill(::getpid(), SIGINT);
+    for (int k = 0; k < 1000 && calls == 0; ++k) ::usleep(1000);
+    ::_exit(calls == 1 ? 7 : 1);
   });
-  CHECK(!WIFSIGNALED(status));
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 7);
+}
+
+TEST_CASE("a folder that a killed process has left goes, those in use or new stay") {
+  const TemporaryFolder folder;
+  for (const char* const name : {"left-old", "left-held", "left-new", "other-old"}) {
+    fs::create_directory(folder / name);
+    write_text(folder / name / "file", "x");
+  }
+  for (const char* const name : {"left-old", "left-held", "other-old"})
+    fs::last_write_time(folder / name, fs::file_time_type::clock::now() - std::chrono::hours(2));
+  fs::create_directory_symlink(folder / "other-old", folder / "left-link");
+  const FileDescriptor held = hold_folder(folder / "left-held");
+  remove_abandoned(folder.path(), "left-");
+  CHECK(!fs::exists(folder / "left-old"));
+  CHECK(fs::exists(folder / "left-held" / "file"));
+  CHECK(fs::exists(folder / "left-new" / "file"));
+  CHECK(fs::exists(folder / "other-old" / "file"));
 }

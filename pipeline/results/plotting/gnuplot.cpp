@@ -50,7 +50,7 @@ void run_gnuplot(const std::filesystem::path& folder, const std::string& script_
   SignalCleanup cleanup;
   {
     const SignalHold hold;
-    failure = posix_spawnp(&process, arguments.front().c_str(), actions.get(), nullptr,
+    failure = posix_spawnp(&process, arguments.front().c_str(), actions.get(), actions.attributes(),
                            exec_pointers(arguments).data(), exec_pointers(variables).data());
     if (failure == 0) cleanup = SignalCleanup(process);
   }
@@ -63,7 +63,9 @@ void run_gnuplot(const std::filesystem::path& folder, const std::string& script_
   if (failure != 0)
     throw ComputationError(std::string("report: gnuplot cannot be started: ") +
                            std::strerror(failure));
-  if (uninterrupted([&] { return waitpid(process, &status, 0); }) != process || status != 0)
+  const pid_t ended = uninterrupted([&] { return waitpid(process, &status, 0); });
+  cleanup.reset();  // where a signal has ended gnuplot, this waits for the end of the process
+  if (ended != process || status != 0)
     throw ComputationError("report: gnuplot failed: " + text_of_file(folder / kComplaints));
 }
 
