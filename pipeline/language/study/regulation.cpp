@@ -51,7 +51,7 @@ constexpr Key kPulseKeys[] = {
                     kPair),
 };
 
-constexpr Key kTestKeys[] = {
+constexpr Key kRegulationKeys[] = {
     Key::text("name", kRequired, "Name of the test, behind that of the regulation"),
     Key::text("direction", kRequired, "Direction of the bending", {.choices = directions}),
     Key::quantities("impact_velocity", "m/s", kRequired, "At the accelerometer, from and to",
@@ -74,7 +74,7 @@ constexpr Key kKeys[] = {
     Key::text("moment_unit", "N*m", "Unit that moments are shown in", {.choices = moment_units}),
     Key::text("velocity_unit", "m/s", "Unit that velocities are shown in",
               {.choices = velocity_units}),
-    Key::tables("test", "Tests of the regulation", kTestKeys),
+    Key::tables("test", "Tests of the regulation", kRegulationKeys),
 };
 
 Limits read_limits(const StudyTable& table, const char* key) {

@@ -19,7 +19,7 @@ namespace flexneck::pipeline {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-using Figure = MeasuredLimit::Figure;
+using LimitedFigure = MeasuredLimit::Figure;
 
 namespace {
 
@@ -134,23 +134,23 @@ std::vector<std::string> corridor_row(const MeasuredRun& run, const MeasuredCorr
 }
 
 /// A figure of a channel in SI units; none if the channel has none.
-std::optional<double> figure_of(const Curve& computed, Figure figure) {
+std::optional<double> figure_of(const Curve& computed, LimitedFigure figure) {
   const multibody::Peak peak = multibody::largest_peak(computed.time_s, computed.values);
-  if (figure == Figure::peak) return peak.value;
-  if (figure == Figure::time_of_peak) return peak.time_s;
+  if (figure == LimitedFigure::peak) return peak.value;
+  if (figure == LimitedFigure::time_of_peak) return peak.time_s;
   const multibody::FreeOscillation after = multibody::free_oscillation(
       computed.time_s, computed.values, computed.values[0], peak.time_s);
   if (after.crossings_s.empty()) return {};
   return after.crossings_s.front();
 }
 
-const char* name_of(Figure figure) {
+const char* name_of(LimitedFigure figure) {
   switch (figure) {
-    case Figure::peak:
+    case LimitedFigure::peak:
       return "peak";
-    case Figure::time_of_peak:
+    case LimitedFigure::time_of_peak:
       return "time of peak";
-    case Figure::first_zero_crossing:
+    case LimitedFigure::first_zero_crossing:
       break;
   }
   return "first zero crossing";
@@ -158,7 +158,7 @@ const char* name_of(Figure figure) {
 
 std::vector<std::string> limit_row(const MeasuredRun& run, const MeasuredLimit& limit) {
   const Curve computed = computed_curve(*run.run, limit.channel);
-  const std::string unit = limit.figure == Figure::peak ? computed.unit : "s";
+  const std::string unit = limit.figure == LimitedFigure::peak ? computed.unit : "s";
   const std::string shown = unit == "s" ? "ms" : customary_unit(unit, "lbf*ft");
   const double factor = factor_from_si(unit, shown);
   const auto bound = [&](const char* key, const std::string& text) -> std::optional<double> {
