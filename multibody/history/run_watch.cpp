@@ -4,7 +4,61 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 namespace flexneck::multibody {
+
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+/// The angle of the rotation about an axis that is nearest to a rotation q, modulo full turns, and
+/// its rate.
+/// @param w  angular velocity in the axes to which q leads
+CountedAngle about(const Vector3d& axis, const Quaterniond& q, const Vector3d& w) {
+  // 2 atan(s / c) with q' = w q / 2.
+  const double c = q.w();
+  const double s = q.vec().dot(axis);
+  const double c_rate = -w.dot(q.vec()) / 2;
+  const double s_rate = axis.dot(c * w + w.cross(q.vec())) / 2;
+  const double square = c * c + s * s;
+  return {.angle_rad = 2 * std::atan2(c < 0 ? -s : s, std::abs(c)),
+          .rate_rad_s = square > 0 ? 2 * (c * s_rate - s * c_rate) / square : 0};
+}
+
+}  // namespace
+
+AngleCounter::AngleCounter(const Model& model, WatchedMarkers& markers) {
+  for (const MeasuredAngle& each : model.angles) {
+    Angle angle{markers.place_of(each.marker), {}, each.axis, {.angle_rad = each.start_rad}};
+    if (each.relative_to) angle.place_from = markers.place_of(*each.relative_to);
+    angles_.push_back(angle);
+  }
+}
+
+/// Motion of the measured marker in the axes of the marker from which the angle is measured.
+WatchedMarkers::Motion AngleCounter::relative(const Angle& angle, const WatchedMarkers& markers) {
+  const WatchedMarkers::Motion& motion = markers.motions[angle.place];
+  if (!angle.place_from) return motion;
+  const WatchedMarkers::Motion& from = markers.motions[*angle.place_from];
+  return {from.R.transpose() * motion.R, from.R.transpose() * (motion.w_rad_s - from.w_rad_s)};
+}
+
+void AngleCounter::count(double time_s, const WatchedMarkers& markers) {
+  for (Angle& each : angles_) {
+    const WatchedMarkers::Motion motion = relative(each, markers);
+    const CountedAngle now = about(each.axis, Quaterniond(motion.R), motion.w_rad_s);
+    each.counted = each.counted.at(time_s, now.angle_rad, now.rate_rad_s);
+  }
+}
+
+double AngleCounter::fastest_rad_s(const WatchedMarkers& markers) const {
+  double fastest = 0;
+  for (const Angle& each : angles_)
+    fastest = std::max(fastest, relative(each, markers).w_rad_s.norm());
+  return fastest;
+}
 
 RunWatch::RunWatch(const Model& model)
     : deformation_(model), turns_(model, markers_), angles_(model, markers_) {}
