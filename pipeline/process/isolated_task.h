@@ -25,7 +25,7 @@ struct ChildLines {
 /// A task run in a process of its own, since a foreign library may crash, hang or use up all
 /// memory.
 struct IsolatedTask {
-  std::string name;                    ///< name in the list of child_tasks.h
+  std::string name;                    ///< name in the list that the program gives child_main()
   std::vector<std::string> arguments;  ///< arguments of the task
   ChildLimits limits;
   std::filesystem::path file;  ///< file that the library reads, for messages
