@@ -37,9 +37,15 @@ set(flexneck_libraries
     isolation pipeline)
 foreach(library ${flexneck_libraries})
   set_target_properties(flexneck_${library} PROPERTIES EXPORT_NAME ${library})
+  target_compile_features(flexneck_${library} PUBLIC cxx_std_20)  # for projects that use it
   list(APPEND flexneck_targets flexneck_${library})
 endforeach()
 set_target_properties(flexneck_warnings PROPERTIES EXPORT_NAME warnings)
+# All that is installed: pipeline/run.sh builds it, so that cmake --install and cpack work after it.
+add_custom_target(product DEPENDS flexneck ${flexneck_targets})
+if(TARGET flexneck_python)
+  add_dependencies(product flexneck_python)
+endif()
 install(TARGETS ${flexneck_targets} flexneck_warnings EXPORT flexneck
         ARCHIVE COMPONENT development
         LIBRARY COMPONENT development)

@@ -11,8 +11,15 @@ case "${1:-build}" in
   *) echo "setup.sh: expected 'build' or 'test', found '$1'" >&2; exit 2 ;;
 esac
 
+release=$(. /etc/os-release && echo "${VERSION_CODENAME:-}") 2>/dev/null || release=''
 packages=$(for section in $sections; do
-  awk -v wanted="[$section]" '/^\[/ {on = ($0 == wanted)} !/^[[#]/ && NF && on {print $1}' "$list"
+  awk -v wanted="[$section]" -v release="$release" '
+    /^\[/ {on = ($0 == wanted)}
+    !/^[[#]/ && NF && on {
+      known = NF == 1
+      for (k = 2; k <= NF; ++k) known = known || $k == release
+      if (known) print $1
+    }' "$list"
 done)
 
 if ! command -v dpkg-query >/dev/null 2>&1; then

@@ -9,5 +9,5 @@ sh "$root/cmake/setup.sh" build
 if [ ! -f "$root/build/build.ninja" ]; then
   (cd "$root" && cmake --preset release -DFLEXNECK_TESTS=OFF) >/dev/null
 fi
-cmake --build "$root/build" --target flexneck --parallel "$(nproc)"
+cmake --build "$root/build" --target product --parallel "$(nproc)"
 exec "$root/build/flexneck" run "$@"

@@ -24,6 +24,8 @@ thread 20 run_under thread
 readme 1 python3 -B tests/readme/readme_test.py "$root/build" "$root" --whole
 manual 1 cmake --build "$root/build" --target manual
 package 1 sh tests/install/package.sh "$root/build" "$out"
+debian13 1 sh tests/install/debian13.sh "$out"
+tidy 1 tidy_all
 python-leaks 10000 env PYTHONPATH=build/python /usr/bin/python3 -B tests/pipeline/python/package_test.py build . --calls $count Leaks
 pulses 1000 build/tests/campaigns/campaign_pulses --seed $seed --runs $count --out $out
 bounces 1000 build/tests/campaigns/campaign_bounces --seed $seed --runs $count --out $out
@@ -38,6 +40,13 @@ run_under() {
   cmake --preset "$1" && cmake --build --preset "$1" &&
     OMP_NUM_THREADS=1 ctest --preset "$1" --parallel "$(nproc)" --repeat "until-fail:$count" \
       --output-log "$root/$out/log"
+}
+
+# clang-tidy on every source.
+tidy_all() {
+  cmake --preset tidy -DFLEXNECK_TESTS=ON >/dev/null &&
+    git ls-files '*.cpp' ':!tests/reliability/fuzz' ':!tests/install/consumer' |
+      xargs -n 1 -P "$(nproc)" clang-tidy -p build-tidy --quiet
 }
 
 if [ $# -lt 1 ]; then

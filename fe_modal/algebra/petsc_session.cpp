@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <dlfcn.h>
 #include <map>
 #include <set>
 #include <string>
@@ -11,7 +12,6 @@
 
 #include <petscpkg_version.h>
 
-#include "fe_modal/algebra/blas_library.h"
 #include "fe_modal/algebra/communicator.h"
 #include "fe_modal/algebra/petsc_handles.h"
 #include "geometry/foundation/error.h"
@@ -19,6 +19,38 @@
 namespace flexneck::fe_modal {
 
 namespace {
+
+/// Finds a function of the BLAS by its name; null if the BLAS is not OpenBLAS.
+template <typename Function>
+Function* find(const char* name) {
+  return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
+}
+
+std::string chosen_kernels() {
+  const auto name = find<char*()>("openblas_get_corename");
+  return name == nullptr ? "" : name();
+}
+
+/// Makes the calling thread run the BLAS and OpenMP on one thread: between the thousands of small
+/// products of a factorisation threads wait for one another, and sums would come in another order
+/// for each number of threads. Each session begins with this call.
+void call_blas_alone() {
+  for (const char* set_number : {"openblas_set_num_threads", "omp_set_num_threads"})
+    if (const auto set = find<void(int)>(set_number)) set(1);
+  // CHOLMOD asks for four threads wherever it asks for any, whatever the number of processors: with
+  // zero levels of OpenMP allowed to be active it gets one.
+  if (const auto set_levels = find<void(int)>("omp_set_max_active_levels")) set_levels(0);
+}
+
+/// Version and kernels of the BLAS, "OpenBLAS 0.3.21, SkylakeX", by which results differ in
+/// rounding; "unknown" for another BLAS.
+std::string blas_version() {
+  const auto configuration = find<char*()>("openblas_get_config");
+  if (configuration == nullptr) return "unknown";
+  const std::string text = configuration();  // "OpenBLAS 0.3.21 NO_LAPACKE ..."
+  const std::size_t end = text.find(' ', text.find(' ') + 1);
+  return text.substr(0, end) + ", " + chosen_kernels();
+}
 
 /// Settings of Open MPI while MPI starts in a process that neither mpirun nor a batch system has
 /// started: without them Open MPI would spend a third of a second on a daemon and on network

@@ -6,7 +6,7 @@
 namespace flexneck::fe_modal {
 
 /// Checks the invariants of every modal body, whatever its origin: the identities among its inertia
-/// invariants (invariants_check.h), and
+/// invariants, and
 ///   Names of modes are unique and kinds known. Frequencies ascend, below any that a solid can
 ///   have; those of kind "rigid", and no others, are zero. Rigid modes are rigid motions: in their
 ///   shapes, at the interfaces, in S2 and in N0. Compliances, response masses, geometric

@@ -3,15 +3,60 @@
 
 #include <cmath>
 
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <Eigen/LU>
 
 #include "fe_modal/algebra/matrix_product.h"
+#include "fe_modal/element/formulation.h"
 #include "fe_modal/element/moduli.h"
-#include "fe_modal/element/pressure_basis.h"
 #include "geometry/foundation/error.h"
 #include "mesher/mesh/shape_functions.h"
 
 namespace flexneck::fe_modal {
+
+namespace {
+
+/// Number of pressures of an element.
+Eigen::Index pressure_count(PressureSpace space) {
+  switch (space) {
+    case PressureSpace::none:
+      return 0;
+    case PressureSpace::constant:
+      return 1;
+    case PressureSpace::along_axis:
+      return 2;
+    case PressureSpace::linear:
+      return 4;
+  }
+  return 0;
+}
+
+/// Basis of the pressures at the q points of an element's stiffness, (q, p), times the square roots
+/// of the points' volumes, orthonormal: sums of products over the points are integrals.
+/// @param reference (3, q) reference coordinates of the points
+/// @param positions (q, 3) positions of the points; used for linear pressures alone, and
+/// overwritten
+/// @param pressures must have its size
+void find_pressures(PressureSpace space, const Eigen::VectorXd& roots,
+                    const Eigen::Matrix3Xd& reference, Eigen::MatrixX3d& positions,
+                    Eigen::MatrixXd& pressures) {
+  pressures.col(0) = roots;
+  if (space == PressureSpace::along_axis) {
+    pressures.col(1) = roots.cwiseProduct(reference.row(2).transpose());
+  }
+  if (space == PressureSpace::linear) {
+    // Positions are centred and scaled for a well-conditioned Gram matrix; the span is the same.
+    positions.rowwise() -= positions.colwise().mean().eval();
+    const double size = positions.cwiseAbs().maxCoeff();
+    pressures.rightCols<3>() = (roots / size).asDiagonal() * positions;
+  }
+  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4> gram =
+      pressures.transpose() * pressures;
+  gram.llt().matrixL().transpose().solveInPlace<Eigen::OnTheRight>(pressures);
+}
+
+}  // namespace
 
 ElementKernel::Points::Points(mesher::ElementKind kind, int strength) {
   const mesher::Quadrature rule = mesher::gauss_rule(kind, strength);

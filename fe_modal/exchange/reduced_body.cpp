@@ -87,7 +87,7 @@ InertiaInvariants transformed(const InertiaInvariants& given, const MatrixXd& T)
   return result;
 }
 
-/// Makes the identities among the invariants (invariants_check.h), which hold to the digits of a
+/// Makes the identities among the invariants (modal_body_check.h), which hold to the digits of a
 /// file, hold to rounding.
 void make_consistent(InertiaInvariants& inertia) {
   const auto cross_of = [](const Eigen::Matrix3d& g) {

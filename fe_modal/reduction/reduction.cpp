@@ -1,13 +1,77 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fe_modal/reduction/reduction.h"
 
-#include "fe_modal/reduction/constrained_modes.h"
+#include <memory>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include "fe_modal/algebra/matrix_product.h"
+#include "fe_modal/algebra/operator_matrix.h"
 #include "fe_modal/reduction/ritz.h"
 #include "fe_modal/reduction/static_shapes.h"
 #include "geometry/foundation/error.h"
 
 namespace flexneck::fe_modal {
+
 namespace {
+
+/// Operator P^T M P, with P the K-orthogonal projector to the fields on which C x = 0: P = I - X (C
+/// X)^-1 C with K X = C^T. The eigenpairs of K x = lambda P^T M P x with finite lambda are the
+/// modes of the body whose interfaces' average motions C x are fixed: K^-1 P^T = P K^-1 is
+/// symmetric, so that x = lambda P K^-1 M P x has C x = 0.
+class ConstrainedMass {
+ public:
+  /// @param mass mass matrix of the free degrees of freedom; must outlive this
+  /// @param constraints C^T, (dofs, n), independent
+  /// @param responses X, (dofs, n)
+  ConstrainedMass(const Ranks& ranks, Mat mass, const Eigen::MatrixXd& constraints,
+                  const Eigen::MatrixXd& responses);
+
+  Mat matrix() const { return operator_.get(); }
+  /// Projection P x of each column.
+  Eigen::MatrixXd project(const Eigen::MatrixXd& columns) const;
+
+ private:
+  struct Terms;
+  std::shared_ptr<const Terms> terms_;
+  OperatorMatrix operator_;
+};
+
+struct ConstrainedMass::Terms {
+  Ranks ranks;
+  Eigen::MatrixXd constraints;           ///< C^T, (dofs, n)
+  Eigen::MatrixXd responses;             ///< X, (dofs, n)
+  Eigen::LLT<Eigen::MatrixXd> products;  ///< factor of C X
+
+  Eigen::MatrixXd project(const Eigen::MatrixXd& fields) const {
+    return fields - responses * products.solve(inner_products(ranks, constraints, fields));
+  }
+  Eigen::MatrixXd project_transposed(const Eigen::MatrixXd& momenta) const {
+    return momenta - constraints * products.solve(inner_products(ranks, responses, momenta));
+  }
+};
+
+Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& matrix) {
+  return (matrix + matrix.transpose()) / 2;
+}
+
+ConstrainedMass::ConstrainedMass(const Ranks& ranks, Mat mass, const Eigen::MatrixXd& constraints,
+                                 const Eigen::MatrixXd& responses)
+    : terms_(std::make_shared<const Terms>(
+          Terms{ranks, constraints, responses,
+                Eigen::LLT<Eigen::MatrixXd>(
+                    symmetric_part(inner_products(ranks, constraints, responses)))})),
+      operator_(
+          constraints.rows(),
+          [mass, terms = terms_](const Eigen::MatrixXd& fields) {
+            return terms->project_transposed(block_product(mass, terms->project(fields)));
+          },
+          ranks) {}
+
+Eigen::MatrixXd ConstrainedMass::project(const Eigen::MatrixXd& columns) const {
+  return terms_->project(columns);
+}
 
 EigenPairs joined(const EigenPairs& lower, const EigenPairs& upper) {
   EigenPairs all{Eigen::VectorXd(lower.values.size() + upper.values.size()),

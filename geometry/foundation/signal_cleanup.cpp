@@ -23,6 +23,7 @@ struct Entry {
   Action action = Action::remove;
   pid_t process = -1;
   fs::path path = {};
+  pid_t owner = ::getpid();  ///< a forked child does not clean up for its parent
 };
 
 struct Registry {
@@ -94,7 +95,7 @@ void clean_up_now() noexcept {
   const std::lock_guard lock(registry().mutex);
   for (const Action action : {Action::end_process, Action::remove, Action::remove_empty_folder})
     for (const auto& [number, entry] : registry().entries)
-      if (entry.action == action) carry_out(entry);
+      if (entry.action == action && entry.owner == ::getpid()) carry_out(entry);
 }
 
 void remove_whole(const fs::path& path) noexcept {

@@ -1,16 +1,65 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "multibody/history/angle_counter.h"
+#include <Eigen/Geometry>
+
 #include "multibody/history/deformation_guard.h"
-#include "multibody/history/turn_guard.h"
 #include "multibody/history/watched_markers.h"
 #include "multibody/model/model.h"
+#include "multibody/numerics/counted_angle.h"
 
 namespace flexneck::multibody {
+
+/// Monitors force elements whose loads follow from the rotation vector from one body to another
+/// (TurnedForce), which jumps at half a turn: ends the run above 3 rad.
+class TurnGuard {
+ public:
+  /// @param markers  the needed markers are added to it
+  TurnGuard(const Model& model, WatchedMarkers& markers);
+
+  /// Checks the rotations, which are followed from one time to the next.
+  /// @throws ComputationError naming the element and the time.
+  void check(double time_s, const WatchedMarkers& markers);
+  /// Largest angular velocity of an element's marker j relative to its marker i.
+  double fastest_rad_s(const WatchedMarkers& markers) const;
+
+ private:
+  struct Watched {
+    std::string title;
+    std::size_t place_i, place_j;
+    /// Rotation from i to j at the last time; initially the identity.
+    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  };
+  std::vector<Watched> elements_;
+};
+
+/// Counts the turns of a model's measured angles along a run.
+class AngleCounter {
+ public:
+  /// @param markers  the needed markers are added to it
+  AngleCounter(const Model& model, WatchedMarkers& markers);
+
+  void count(double time_s, const WatchedMarkers& markers);
+  /// Largest angular velocity of a measured marker relative to the one from which it is measured.
+  double fastest_rad_s(const WatchedMarkers& markers) const;
+  std::size_t size() const { return angles_.size(); }
+  double angle_rad(std::size_t index) const { return angles_[index].counted.angle_rad; }
+
+ private:
+  struct Angle {
+    std::size_t place;
+    std::optional<std::size_t> place_from;  ///< none: the world
+    Eigen::Vector3d axis;
+    CountedAngle counted;
+  };
+  static WatchedMarkers::Motion relative(const Angle& angle, const WatchedMarkers& markers);
+
+  std::vector<Angle> angles_;
+};
 
 /// Monitors a run: at its start, at its outputs, after every accepted step (Equations::accept()),
 /// and inside steps in which watched markers rotate far. It contains the guards that end or

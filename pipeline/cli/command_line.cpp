@@ -245,11 +245,13 @@ std::size_t place_of_command(const std::vector<std::string>& words) {
   return static_cast<std::size_t>(found - words.begin());
 }
 
-void refuse_late_command(const CommandLine& line) {
-  for (const std::string& file : line.files)
+[[noreturn]] void refuse_late_command(const std::vector<std::string>& words) {
+  std::string name = "COMMAND";
+  for (const std::string& word : words)
     for (const Command& command : commands())
-      if (command.name == file)
-        throw InputError("the command comes first: 'flexneck " + file + "', then its options");
+      if (command.name == word) name = word;
+  throw InputError("the command comes first: 'flexneck " + name +
+                   "', then its options; 'flexneck --help' lists the commands");
 }
 
 }  // namespace
@@ -275,7 +277,7 @@ CommandLine parse_command_line(const std::vector<std::string>& words) {
   const std::vector<std::string> given(words.begin() + 1, words.end());
   const std::size_t place = place_of_command(given);
   const std::string first = place < given.size() ? given[place] : "";
-  if (first == "-h" || first == "--help") {
+  if (given.empty() || first == "-h" || first == "--help") {
     line.answer = help();
   } else if (first == "--version") {
     line.answer = std::string("flexneck ") + kVersion + " (" + kGitHash + ")";
@@ -284,9 +286,7 @@ CommandLine parse_command_line(const std::vector<std::string>& words) {
   } else if (first == "--bash-completion") {
     line.answer = bash_completion();
   } else if (first.empty() || first.front() == '-') {
-    line.command = &commands().front();
-    parse_options(given, line);
-    refuse_late_command(line);
+    refuse_late_command(given);
   } else {
     line.command = &commands()[find_name(names_of(commands()), first, "command")];
     std::vector<std::string> others = given;

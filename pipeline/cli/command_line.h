@@ -10,7 +10,7 @@
 namespace flexneck::pipeline {
 
 inline constexpr const char* kPurpose = "from the geometry of a dummy's neck to its motion";
-inline constexpr const char* kUsage = "flexneck [COMMAND] [FILE ...] [OPTIONS]";
+inline constexpr const char* kUsage = "flexneck COMMAND [FILE ...] [OPTIONS]";
 inline constexpr const char* kExitCodes =
     "Exit codes: 0 done, 1 a verification failed, 2 unusable input, 3 a computation failed.";
 

@@ -17,7 +17,7 @@ const std::vector<Command>& commands() {
                                     "Default: the study that the folder was made with"};
   static const std::vector<Command> list = {
       {.name = "run",
-       .help = "mesh, modes, pictures, static, pendulum, verify and report (the default)",
+       .help = "mesh, modes, pictures, static, pendulum, verify and report",
        .files = study,
        .options = {folder, settings, mesh_settings, modes_settings, cases, redo, threads},
        .run = run_command,

@@ -53,7 +53,7 @@ struct Command {
   bool is_remembered = true;   ///< the folder remembers the study, if it is told to or knows none
 };
 
-/// All commands, in the order of --help; the first one is run by a line without a command.
+/// All commands, in the order of --help.
 const std::vector<Command>& commands();
 
 /// Warns before a stage run by itself replaces a file by one made from other values.

@@ -20,10 +20,11 @@
 #include "geometry/foundation/path_error.h"
 #include "geometry/foundation/printable.h"
 #include "geometry/foundation/signal_cleanup.h"
-#include "pipeline/cli/child_tasks.h"
 #include "pipeline/cli/command_line.h"
 #include "pipeline/cli/execute.h"
 #include "pipeline/parameter_studies/sweep/process_rank.h"
+#include "pipeline/process/child_main.h"
+#include "pipeline/process/result_files.h"
 
 namespace {
 
@@ -201,7 +202,7 @@ void refuse_end_by_library() {
 int main(int argc, char** argv) {
   prepare_process();
   const std::span<char*> words(argv, static_cast<std::size_t>(argc));
-  if (is_child(words)) child_main(words, child_tasks());
+  if (is_child(words)) child_main(words, {{"copy", copy_task}});
   std::set_terminate(terminate);
   std::atexit(refuse_end_by_library);
   int code = kComputationFailed;

@@ -7,9 +7,13 @@
 
 #include "geometry/foundation/progress.h"
 #include "pipeline/process/child_limits.h"
-#include "pipeline/process/command_program.h"
 
 namespace flexneck::pipeline {
+
+/// Path of the command `flexneck`, which runs the tasks of child processes: this program, or
+/// bin/flexneck or flexneck above the Python module that this code is a part of.
+/// @throws ComputationError if there is none above the module.
+std::filesystem::path command_program();
 
 /// Receivers of a child's lines; each may be empty.
 struct ChildLines {
@@ -21,7 +25,7 @@ struct ChildLines {
 /// A task run in a process of its own, since a foreign library may crash, hang or use up all
 /// memory.
 struct IsolatedTask {
-  std::string name;                    ///< name in the list of child_tasks.h
+  std::string name;                    ///< name in the list that the program gives child_main()
   std::vector<std::string> arguments;  ///< arguments of the task
   ChildLimits limits;
   std::filesystem::path file;  ///< file that the library reads, for messages

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Times the first 0.25 s of a pendulum run. README.md describes the comparison.
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -8,8 +7,8 @@
 #include <exception>
 #include <vector>
 
+#include "geometry/foundation/in_parallel.h"
 #include "multibody/joints/joint_kinds.h"
-#include "multibody/simulation/batch.h"
 #include "multibody/simulation/simulation.h"
 #include "tests/benchmarks/timing.h"
 #include "tests/support/test_models.h"
@@ -76,18 +75,13 @@ void report_batch(std::size_t count) {
     std::get<PrescribedBody>(models[k].bodies[0].kind).initial_velocity_m_s +=
         1e-3 * static_cast<double>(k);
   const OutputOptions output{.end_time_s = 0.25, .interval_s = 0.0125};
-  std::vector<BatchRun> runs;
-  runs.reserve(models.size());
-  for (const Model& model : models) runs.push_back({&model, kSolver, output, true});
   const auto start = std::chrono::steady_clock::now();
   const std::clock_t cpu_start = std::clock();
-  const std::vector<BatchResult> results = simulate_batch(runs, 2);
+  flexneck::in_parallel(
+      count, 2, [&](std::size_t k) { simulate_from_equilibrium(models[k], kSolver, output); });
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-  std::printf("batch of %zu on two threads %.3f s, CPU %.3f s, %zu failed\n", count, spent.count(),
-              static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC,
-              static_cast<std::size_t>(
-                  std::count_if(results.begin(), results.end(),
-                                [](const BatchResult& each) { return !each.error.empty(); })));
+  std::printf("batch of %zu on two threads %.3f s, CPU %.3f s\n", count, spent.count(),
+              static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC);
 }
 
 }  // namespace

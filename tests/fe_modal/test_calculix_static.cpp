@@ -74,7 +74,8 @@ double stress_difference(const PointStresses& ours, const std::string& dat) {
 
 }  // namespace
 
-TEST_CASE("CalculiX finds a loaded plate's stresses, buckling load and prestressed frequencies") {
+TEST_CASE("CalculiX finds a loaded plate's stresses, buckling load and prestressed frequencies",
+          "[ccx]") {
   const mesher::Mesh mesh = plate();
   ModalOptions options;
   options.mode_count = 6;

@@ -206,7 +206,8 @@ mesher::Mesh imported(const std::filesystem::path& file, const std::string& part
 
 }  // namespace
 
-TEST_CASE("of a deck with supports, couplings, masses and springs CalculiX finds the same modes") {
+TEST_CASE("of a deck with supports, couplings, masses and springs CalculiX finds the same modes",
+          "[ccx]") {
   constexpr double kSevenDigits = 1e-6;
   const TemporaryFolder folder;
   const std::filesystem::path deck = write_deck(folder, bar(mesher::ElementKind::hex20));

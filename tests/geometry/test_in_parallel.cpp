@@ -11,7 +11,8 @@
 
 using flexneck::in_parallel;
 
-TEST_CASE("each task is done once, by at most so many threads, the caller's among them") {
+TEST_CASE(
+    "in parallel each task is done once, by at most so many threads, the caller's among them") {
   for (const unsigned threads : {1U, 2U, 7U}) {
     std::vector<int> times(1000, 0);
     std::vector<std::thread::id> workers(times.size());
@@ -26,7 +27,7 @@ TEST_CASE("each task is done once, by at most so many threads, the caller's amon
   in_parallel(0, 3, [](std::size_t /*k*/) { FAIL("there was nothing to do"); });
 }
 
-TEST_CASE("what a task throws reaches the caller when all threads have ended") {
+TEST_CASE("what a task throws in parallel reaches the caller when all threads have ended") {
   std::atomic<int> running = 0;
   const auto work = [&](std::size_t k) {
     ++running;

@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 #include <catch2/catch.hpp>
 
-#include "multibody/numerics/small_lu.h"
+#include "multibody/numerics/lu_factors.h"
 #include "tests/support/point_mass_body.h"
 
 using Eigen::Index;

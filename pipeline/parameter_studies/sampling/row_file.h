@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,9 +11,21 @@
 #include <Eigen/Core>
 
 #include "geometry/foundation/file_descriptor.h"
-#include "pipeline/parameter_studies/sampling/files_now.h"
+#include "geometry/foundation/files_read.h"
 
 namespace flexneck::pipeline {
+
+/// Checks whether files are unchanged since they were read. Each is examined once, so that all
+/// answers of one object refer to one state.
+class FilesNow {
+ public:
+  bool is_same(const FileRead& file);
+  /// All files examined, in their current state.
+  std::vector<FileRead> files() const;
+
+ private:
+  std::map<std::string, std::string> hashes_;  ///< by path
+};
 
 /// Result of a row.
 struct RowResult {

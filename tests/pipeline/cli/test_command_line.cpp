@@ -130,6 +130,8 @@ TEST_CASE("unusable arguments and studies end with one line, exit code 2 and no 
   CHECK_FALSE(fs::exists(folder / "out"));
   check_refused(run_flexneck("run --no-such-option" + out), "--no-such-option");
   CHECK(run_flexneck("--help").exit_code == 0);
+  CHECK(run_flexneck("").exit_code == 0);
+  CHECK(run_flexneck("").text == run_flexneck("--help").text);
   CHECK(run_flexneck("--version").exit_code == 0);
 }
 

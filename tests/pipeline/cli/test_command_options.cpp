@@ -71,6 +71,7 @@ TEST_CASE("an option is refused by commands in which it does nothing") {
   check_refused(run_flexneck("mesh --shw"), "--shw (did you mean '--show'?)");
   check_refused(run_flexneck("run --frce"), "(did you mean '--force'?)");
   check_refused(run_flexneck("-o out mesh"), "the command comes first: 'flexneck mesh'");
+  check_refused(run_flexneck("-q"), "the command comes first: 'flexneck COMMAND'");
   check_refused(run_flexneck("msh"), "did you mean 'mesh'?");
 }
 

@@ -17,7 +17,8 @@ using testing::check_refused;
 using testing::kExamples;
 using testing::run_flexneck;
 
-TEST_CASE("a bar under loads of every kind is in balance, and CalculiX agrees on its modes") {
+TEST_CASE("a bar under loads of every kind is in balance, and CalculiX agrees on its modes",
+          "[ccx]") {
   const TemporaryFolder folder;
   const std::string study = kExamples + "loaded_bar.toml";
   testing::run_study(study, folder.path(), " --set modes.formulation=displacement");

@@ -68,7 +68,8 @@ TEST_CASE("a mesh comes back from its export with the same frequencies") {
                 "expected a file with an ending of .msh (the mesh for gmsh)");
 }
 
-TEST_CASE("an .inp comes back from its export with the same frequencies, and CalculiX agrees") {
+TEST_CASE("an .inp comes back from its export with the same frequencies, and CalculiX agrees",
+          "[ccx]") {
   const TemporaryFolder folder;
   const fs::path out = folder / "out";
   const std::string study = kExamples + "cantilever_inp.toml";
@@ -87,7 +88,8 @@ TEST_CASE("an .inp comes back from its export with the same frequencies, and Cal
   CHECK(largest_error(before, testing::calculix_frequencies(folder / "bar.inp")) < 1e-6);
 }
 
-TEST_CASE("CalculiX finds the neck's frequencies on the deck exported of 20-node elements") {
+TEST_CASE("CalculiX finds the neck's frequencies on the deck exported of 20-node elements",
+          "[ccx]") {
   const TemporaryFolder folder;
   const std::string neck =
       " --set mesh.element=hex20 --set mesh.quadrant=2 --set mesh.inner_ring=2"
@@ -108,7 +110,7 @@ TEST_CASE("CalculiX finds the neck's frequencies on the deck exported of 20-node
   CHECK(errors("reduced") < 1e-3);
 }
 
-TEST_CASE("hexahedra, prisms and tetrahedra in one mesh: CalculiX agrees") {
+TEST_CASE("hexahedra, prisms and tetrahedra in one mesh: CalculiX agrees", "[ccx]") {
   const TemporaryFolder folder;
   const std::string study = kExamples + "mixed.toml";
   run_study(study, folder.path());

@@ -9,7 +9,6 @@
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/temporary_folder.h"
 #include "pipeline/experiments/pendulum.h"
-#include "pipeline/experiments/pulse_spectrum.h"
 #include "pipeline/experiments/pulse_tables.h"
 #include "pipeline/language/model/pulse.h"
 #include "tests/support/beam_experiment.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/language/study/case_tables.h"
+#include "pipeline/language/study/sections.h"
 
 #include <algorithm>
 
