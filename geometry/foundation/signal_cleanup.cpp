@@ -79,12 +79,13 @@ bool has_handler(int signal) {
   for (;;) {
     int signal = 0;
     if (::sigwait(&signals, &signal) != 0) continue;
-    if (has_handler(signal)) {
+    if (signal == SIGINT && has_handler(signal)) {
       deliver(signal);
       continue;
     }
     const SignalHold until_the_end;
     clean_up_now();
+    std::signal(signal, SIG_DFL);  // METIS handles SIGTERM while it works
     deliver(signal);
   }
 }

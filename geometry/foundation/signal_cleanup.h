@@ -8,8 +8,8 @@
 namespace flexneck {
 
 /// Starts a thread that waits for SIGINT, SIGTERM and SIGHUP. It ends the registered child
-/// processes, removes the registered paths, and lets the signal end the process; a signal with a
-/// handler only calls that handler, in this thread. A signal that is ignored stays ignored. The
+/// processes, removes the registered paths, and lets the signal end the process; a SIGINT that has
+/// a handler only calls it, in this thread. A signal that is ignored stays ignored. The
 /// signals are blocked in the calling thread and in those that it starts later: call it before
 /// any other thread exists, and start programs by SpawnActions. For programs only: a library leaves
 /// signals to its program.

@@ -111,9 +111,8 @@ def is_librarys_end(scenario, end, plan, library):
 def fault_of(scenario, end, found, plan, reached, library):
     """What is wrong with how a disturbed command ended; empty if nothing is."""
     if is_librarys_end(scenario, end, plan, library):
-        wrong = scenarios.differences(found, scenarios.either(scenario))
-        # MPI leaves no time for the lock.
-        wrong = [name for name in wrong if not (is_ended_by_mpi(end) and name == scenarios.LOCK)]
+        wrong = [name for name in scenarios.differences(found, scenarios.either(scenario))
+                 if not scenarios.left_by_a_crash(name)]
         return f"status {end.status} and " + ", ".join(wrong) if wrong else ""
     if end.status in (0, 1) and "Warning: " in end.text and ": gmsh: " in end.text:
         return ""  # another mesh, and it is told

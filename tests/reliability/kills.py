@@ -22,16 +22,11 @@ def left_behind(scenario, found, by):
     wrong = scenarios.differences(found, expected)
     if by != signal.SIGKILL:
         return wrong
-    # SIGKILL cannot be handled: the lock and the temporary folder stay, whose lock the system
-    # releases, and the hidden folder of an export.
-    return [name for name in wrong
-            if name != scenarios.LOCK and not name.startswith(("tmp/flexneck-", "out/.flexneck-"))]
+    return [name for name in wrong if not scenarios.left_by_a_crash(name)]
 
 
 def fault_of(scenario, by, end, found, again, mended):
-    # METIS reports SIGTERM as an error of its own and continues.
-    is_of_metis = by == signal.SIGTERM and end.status == 3 and "METIS" in end.text
-    if end.status not in (0, 1, -by) and not is_of_metis:
+    if end.status not in (0, 1, -by):
         return f"status {end.status}"
     wrong = left_behind(scenario, found, by)
     if wrong:

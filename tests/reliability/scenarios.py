@@ -120,6 +120,12 @@ def either(scenario):
             for name in scenario.before.keys() | scenario.after.keys()}
 
 
+def left_by_a_crash(name):
+    """A process that a signal kills at once, or that crashes, cannot remove its lock, which the system releases,
+    its temporary folder, or the hidden folder of an export: a later command does."""
+    return name == LOCK or name.startswith(("tmp/flexneck-", "out/.flexneck-"))
+
+
 def exactly(hashes_of_files):
     return {name: {value} for name, value in hashes_of_files.items()}
 
