@@ -23,9 +23,9 @@ packages=$(for section in $sections; do
 done)
 
 if ! command -v dpkg-query >/dev/null 2>&1; then
-  echo "setup.sh: this is no Debian system, so nothing was installed. flexneck needs:" >&2
+  echo "setup.sh: not a Debian system, so nothing was installed. flexneck needs:" >&2
   echo "$packages" | sed 's/^/  /' >&2
-  echo "Install their counterparts, then: cmake --preset release && cmake --build build" >&2
+  echo "Install the corresponding packages, then: cmake --preset release && cmake --build build" >&2
   exit 2
 fi
 
@@ -41,7 +41,7 @@ if [ "$(id -u)" -eq 0 ]; then
 elif command -v sudo >/dev/null 2>&1; then
   as_root='sudo'
 else
-  echo "setup.sh: neither root nor sudo; ask an administrator for: apt-get install$missing" >&2
+  echo "setup.sh: neither root nor sudo is available; ask an administrator for: apt-get install$missing" >&2
   exit 2
 fi
 

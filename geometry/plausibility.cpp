@@ -98,12 +98,12 @@ std::string implausible_density(double youngs_modulus_Pa, double poissons_ratio,
                                 double density_kg_m3) {
   const DensityRange& range = range_of(youngs_modulus_Pa, poissons_ratio);
   if (density_kg_m3 >= range.low_kg_m3 && density_kg_m3 <= range.high_kg_m3) return {};
-  std::string remark = "the density is " + rounded_text(density_kg_m3, 4) + " kg/m^3, where " +
+  std::string remark = "the density is " + rounded_text(density_kg_m3, 4) + " kg/m^3, but " +
                        range.solids + " with a modulus near " + rounded_text(youngs_modulus_Pa, 2) +
                        " Pa have " + rounded_text(range.low_kg_m3) + " to " +
                        rounded_text(range.high_kg_m3);
   if (const Slip* const slip = slip_of(range, density_kg_m3)) {
-    remark += std::string("; was it ") + slip->what + "? Then it is " +
+    remark += std::string("; was it given as ") + slip->what + "? Then it would be " +
               rounded_text(density_kg_m3 / slip->factor, 4) + " kg/m^3";
   }
   return remark;

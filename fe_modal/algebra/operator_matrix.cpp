@@ -47,8 +47,8 @@ struct OperatorMatrix::Context {
 
 namespace {
 
-constexpr const char* kMaking = "making a matrix of an operator";
-constexpr const char* kUsing = "using a matrix of an operator";
+constexpr const char* kMaking = "creating the matrix of an operator";
+constexpr const char* kUsing = "applying the matrix of an operator";
 
 /// Function that PETSc calls for y = A x.
 PetscErrorCode multiply(Mat shell, Vec x, Vec y) {

@@ -11,7 +11,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-constexpr const char* kTaking = "taking options of PETSc";
+constexpr const char* kTaking = "setting options of PETSc";
 
 bool is_name(const std::string& word) {
   return word.size() > 1 && word[0] == '-' && is_letter(word[1]);
@@ -19,7 +19,8 @@ bool is_name(const std::string& word) {
 
 void check_name(const std::string& word) {
   if (word == "-st_pc_factor_mat_solver_type")
-    throw InputError("the option " + word + " of PETSc may not be chosen: modes.solver does that");
+    throw InputError("the option " + word +
+                     " of PETSc is not allowed; choose the solver with modes.solver");
   const std::vector<std::string> prefixes = petsc_choice_prefixes();
   std::string all;
   for (const std::string& prefix : prefixes) {
@@ -27,7 +28,7 @@ void check_name(const std::string& word) {
     all += (all.empty() ? "" : ", ") + prefix;
   }
   throw InputError("the option " + word +
-                   " of PETSc may not be chosen: expected names that begin with " + all);
+                   " of PETSc is not allowed; expected names that begin with " + all);
 }
 
 }  // namespace
@@ -44,7 +45,8 @@ PetscChoices::PetscChoices(const std::string& options) {
     if (is_name(word)) {
       check_name(word);
     } else if (is_first) {
-      throw InputError("options of PETSc: expected a name such as -eps_ncv, found '" + word + "'");
+      throw InputError("options of PETSc: expected an option such as -eps_ncv, found '" + word +
+                       "'");
     }
   }
   if (is_first) return;
@@ -74,8 +76,8 @@ void PetscChoices::require_used() const {
   }
   require(PetscOptionsLeftRestore(options_, &count, &names, &values), kTaking);
   if (!left.empty())
-    throw InputError("options of PETSc that nothing asked for: " + left +
-                     "; the solver and the method that run do not have them");
+    throw InputError("PETSc options without effect: " + left +
+                     "; the solver and the method in use do not have these options");
 }
 
 }  // namespace flexneck::fe_modal

@@ -19,7 +19,7 @@ void require(PetscErrorCode code, std::string_view doing) {
                            std::to_string(static_cast<int>(code)) + ")";
   if (code == PETSC_ERR_MEM)
     throw out_of_memory(std::string(doing),
-                        "take a coarser mesh, or the solver mumps on several ranks");
+                        "use a coarser mesh, or the solver mumps on several ranks");
   throw ComputationError(text);
 }
 
@@ -30,7 +30,7 @@ VecHandle vector_on(std::span<const double> values, const Ranks& ranks) {
               ? VecCreateMPIWithArray(communicator(ranks), 1, size, PETSC_DECIDE, values.data(),
                                       vector.out())
               : VecCreateSeqWithArray(communicator(ranks), 1, size, values.data(), vector.out()),
-          "laying a vector on memory");
+          "creating a vector");
   return vector;
 }
 
@@ -44,19 +44,19 @@ MatHandle dense_on(const Eigen::MatrixXd& columns, const Ranks& ranks) {
   require(MatCreateDense(communicator(ranks), static_cast<PetscInt>(columns.rows()), PETSC_DECIDE,
                          PETSC_DETERMINE, static_cast<PetscInt>(columns.cols()),
                          const_cast<double*>(columns.data()), matrix.out()),
-          "laying a matrix on memory");
+          "creating a matrix");
   return matrix;
 }
 
 PetscInt infog(Mat factor, PetscInt number) {
   PetscInt value = 0;
-  require(MatMumpsGetInfog(factor, number, &value), "asking MUMPS how it went");
+  require(MatMumpsGetInfog(factor, number, &value), "querying the status of MUMPS");
   return value;
 }
 
 Eigen::Index size_of(Mat matrix) {
   PetscInt size = 0;
-  require(MatGetSize(matrix, &size, nullptr), "asking for the size of a matrix");
+  require(MatGetSize(matrix, &size, nullptr), "querying the size of a matrix");
   return size;
 }
 

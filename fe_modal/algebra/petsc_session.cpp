@@ -120,7 +120,7 @@ std::string last_petsc_message() { return std::exchange(petsc_message(), {}); }
 
 PetscSession::PetscSession(Start /*start*/) {
   PetscBool initialized = PETSC_FALSE;
-  require(PetscInitialized(&initialized), "asking whether PETSc is initialised");
+  require(PetscInitialized(&initialized), "querying whether PETSc is initialised");
   if (initialized == PETSC_TRUE) {
     is_outer_ = false;
     return;
@@ -129,7 +129,7 @@ PetscSession::PetscSession(Start /*start*/) {
   call_blas_alone();
   int finalized = 0;
   require_mpi(MPI_Finalized(&finalized));
-  if (finalized != 0) throw ComputationError("PETSc can be initialised once in a process only");
+  if (finalized != 0) throw ComputationError("PETSc can be initialised only once per process");
   PETSC_MPI_THREAD_REQUIRED = MPI_THREAD_SERIALIZED;
   // The process keeps its signal handlers, and neither a user's .petscrc nor the environment nor
   // the command line affects the solvers: PETSc sees these arguments only. At its end it does not
@@ -157,7 +157,7 @@ PetscSession::PetscSession() : PetscSession(Start()) {
   if (!is_outer_) return;
   PetscErrorPrintf = PetscErrorPrintfNone;
   require(PetscOptionsInsertString(nullptr, kSessionOptions), "setting options of PETSc");
-  require(PetscPushErrorHandler(keep_message, nullptr), "silencing PETSc");
+  require(PetscPushErrorHandler(keep_message, nullptr), "setting the error handler of PETSc");
 }
 
 PetscSession::~PetscSession() {

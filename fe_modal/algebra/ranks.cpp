@@ -54,7 +54,7 @@ std::string current_failure() {
   } catch (const std::exception& error) {
     return error.what();
   } catch (...) {
-    return "an unknown failure";
+    return "an unknown error";
   }
 }
 

@@ -103,10 +103,10 @@ FinerMesh finer_mesh(const mesher::Mesh& mesh, int mode_count) {
   mesher::Mesh raised = mesher::raise_order(mesh).mesh;
   if (has_thin_part(mesh)) {
     const double dofs = 3 * kCutInEight * static_cast<double>(raised.nodes.size());
-    require_memory("the mesh's error, estimated with " + std::to_string(std::llround(dofs)) +
-                       " degrees of freedom, as its elements are linear,",
-                   memory_needs(dofs, mode_count).assembling,
-                   "take quadratic elements, or leave out modes.check");
+    require_memory(
+        "the estimate of the discretisation error, with " + std::to_string(std::llround(dofs)) +
+            " degrees of freedom (increased since the elements are linear),",
+        memory_needs(dofs, mode_count).assembling, "use quadratic elements, or omit modes.check");
     raised = mesher::refine(raised).mesh;
   }
   return {std::move(raised), kOfRaised};
@@ -141,8 +141,8 @@ std::vector<MeshError> mesh_errors(const AssembledSystem& system, const EigenPai
   options.prestress_m.resize(3, 0);
   Model model(finer.mesh, std::move(options));
   if (progress)
-    progress("refining for the error of the mesh, " + std::to_string(model.dof_map().dof_count()) +
-             " degrees of freedom");
+    progress("refining the mesh for the discretisation error, " +
+             std::to_string(model.dof_map().dof_count()) + " degrees of freedom");
   add_prestress(model, progress);
   const AssembledSystem fine(model);
   const Eigen::MatrixXd rigid = fine.rigid_modes();

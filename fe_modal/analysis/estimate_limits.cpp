@@ -124,8 +124,8 @@ std::string limits_of_estimate(const mesher::Mesh& mesh, const ModalOptions& opt
   std::string names;
   for (const std::string& line : single) names += (names.empty() ? "" : ", ") + line;
   if (names.empty()) return names;
-  return "single nodes hold or load the body, so that there is no limit as elements become "
-         "smaller: " +
+  return "the body is supported or loaded at single nodes, for which results do not converge with "
+         "mesh refinement: " +
          names;
 }
 

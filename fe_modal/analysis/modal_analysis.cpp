@@ -96,8 +96,9 @@ std::vector<InterfaceLoads> loads_of(const ModalOptions& options, const FieldMap
 void warn_of_rigid_cut(Eigen::Index count, Eigen::Index rigid_count, const Progress& warn) {
   if (count >= rigid_count || !warn) return;
   const std::string all = std::to_string(rigid_count);
-  warn("the number of modes, " + std::to_string(count) + ", cuts the " + all +
-       " rigid-body motions of the body, of which any combination is one: ask for at least " + all);
+  warn("the number of modes, " + std::to_string(count) + ", splits the " + all +
+       " rigid-body modes of the body, of which any combination is a mode; request at least " +
+       all);
 }
 
 /// The requested basis, the result of the check of its completeness, and the fields of slits that
@@ -228,7 +229,7 @@ void add_mesh_errors(const Analysis& of, EigenPairs pairs, Eigen::Index eigenvec
   for (std::size_t k = 0; k < errors.size(); ++k) body.modes[k].mesh_error = errors[k];
   body.mesh_error_limits = limits_of_estimate(of.model.mesh(), of.options());
   if (!body.mesh_error_limits.empty() && of.warn)
-    of.warn("the errors of the mesh are an indication alone: " + body.mesh_error_limits);
+    of.warn("the estimated discretisation errors are only indicative: " + body.mesh_error_limits);
 }
 
 }  // namespace
@@ -245,7 +246,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   check_options(model);
   check_memory(mesh, options);
   if (fields != nullptr && !options.prestress.empty())
-    throw InputError("derivatives of prestressed modes are not offered: leave the prestress out");
+    throw InputError("sensitivities of prestressed modes are not supported; remove the prestress");
   if (!options.prestress.empty()) times.start("static step");
   add_prestress(model, progress);
   if (const std::string text = large_prestress_text(model); warn && !text.empty()) warn(text);
@@ -257,7 +258,7 @@ ModalBody analyse_modes(const mesher::Mesh& mesh, const ModalOptions& options,
   const AssembledSystem system(model);
 
   times.start("factorise");
-  if (progress) progress("factorising the stiffness");
+  if (progress) progress("factorising the stiffness matrix");
   const bool fixed = model.rigid().count() == 0;
   const std::unique_ptr<const LinearSolver> inverse =
       options.prestress.empty() ? factorise_or_refuse(system, shift_of(model))

@@ -36,8 +36,8 @@ ModalOptions without_prestress(ModalOptions options) {
 }
 
 [[noreturn]] void refuse_buckled(double factor) {
-  throw InputError("the body buckles under its prestress, at " + rounded_text(factor, 4) +
-                   " of the loads: modes are those of a body that does not; lessen them");
+  throw InputError("the body buckles under its prestress at " + rounded_text(factor, 4) +
+                   "times the loads; reduce the loads");
 }
 
 }  // namespace
@@ -73,10 +73,10 @@ std::string large_prestress_text(const Model& model) {
         }
       });
   if (strain <= kLargestStrain && turn_rad <= kLargestTurn_rad) return {};
-  return "the static step of the prestress strains the body by up to " + rounded_text(strain, 2) +
-         " and turns parts of it by up to " + rounded_text(turn_rad * 180 / std::numbers::pi, 2) +
-         " deg: theory of small displacements errs by a tenth and more above a strain of 0.1 or "
-         "some 20 deg; lessen the loads";
+  return "the static step of the prestress causes strains of up to " + rounded_text(strain, 2) +
+         " and rotations of up to " + rounded_text(turn_rad * 180 / std::numbers::pi, 2) +
+         " deg; above a strain of 0.1 or about 20 deg, small-displacement theory has errors of 10 "
+         "% or more; reduce the loads";
 }
 
 std::optional<double> buckling_factor(const Model& model) {

@@ -216,9 +216,9 @@ void check_overlap(const mesher::Mesh& mesh, const ModalOptions& options) {
       std::set_intersection(one.begin(), one.end(), two.begin(), two.end(),
                             std::back_inserter(shared));
       if (shared.empty()) continue;
-      throw InputError("sensitivities are not offered where interface '" + other.name +
-                       "' has nodes of the rigid interface '" + rigid.name +
-                       "'; tie it too, in modes.rigid_interfaces");
+      throw InputError("sensitivities are not supported if interface '" + other.name +
+                       "' shares nodes with the rigid interface '" + rigid.name +
+                       "'; make it rigid as well, in modes.rigid_interfaces");
     }
   }
 }
@@ -231,15 +231,14 @@ void check_connections(const mesher::Connections& connections) {
     return;
   }
   throw InputError(
-      "sensitivities are not offered with couplings, equations or supports in "
-      "cylindrical axes");
+      "sensitivities are not supported with couplings, equations or supports in cylindrical axes");
 }
 
 void check_basis(const ModalOptions& options) {
   if (options.basis == BasisKind::craig_bampton) {
     throw InputError(
-        "sensitivities need eigenvectors of the body, a basis of craig-bampton has none; take "
-        "modes.basis = \"residual\"");
+        "sensitivities need eigenvectors of the body, which a Craig-Bampton basis does not "
+        "contain; use modes.basis = \"residual\"");
   }
 }
 
@@ -263,8 +262,8 @@ void note_cut_group(const SensitivityRequest& request, const AnalysisFields& sol
   const double last_Hz = modes.frequencies_Hz.tail<1>()[0];
   if (!(solved.next_Hz - last_Hz < kNearlyEqual * solved.next_Hz)) return;
   result.notes.push_back(modes.names.back() +
-                         " lies within 1 % of the next mode, which was not asked for: raise "
-                         "modes.count, its derivatives are those of a single mode");
+                         " is within 1 % of the next mode, which was not computed, and its "
+                         "derivatives assume a single mode; increase modes.count");
 }
 
 }  // namespace

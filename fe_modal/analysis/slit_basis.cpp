@@ -64,8 +64,8 @@ SlitBasis slit_basis(const Model& model, const BodyOperators& open,
   // Forces on couplings and in fixed directions do not transfer from one body to the other.
   if (field_map.dof_map().is_constrained())
     throw InputError(
-        "slits that open and close: expected no rigid interface or coupling, no equation, and no "
-        "direction fixed alone");
+        "slits that open and close are not supported with rigid interfaces, couplings, equations "
+        "or supports in single directions");
   const StaticShapes shapes = static_shapes(open, {}, loads);
   const Eigen::MatrixXd combinations = correcting_loads(shapes, loads, progress);
 
@@ -73,7 +73,7 @@ SlitBasis slit_basis(const Model& model, const BodyOperators& open,
   basis.fields = slit_fields(mesh, field_map.expand(shapes.beyond * combinations),
                              model.options().slit_motions == SlitMotions::openings_and_sliding);
   if (progress)
-    progress(std::to_string(basis.fields.size()) + " ways in which slits part join the basis");
+    progress(std::to_string(basis.fields.size()) + " slit opening shapes are added to the basis");
   std::vector<Eigen::Matrix3Xd> parted;
   for (const SlitField& field : basis.fields) parted.push_back(on_nodes(mesh, field));
   const Eigen::MatrixXd jumps = field_map.restrict(parted);

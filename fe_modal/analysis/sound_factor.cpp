@@ -12,7 +12,7 @@ namespace {
 void refuse_named_motions(const AssembledSystem& system, bool is_fixed) {
   if (const auto motions = describe_mechanism(system, is_fixed))
     throw InputError("the body is a mechanism: " + *motions +
-                     "; fix it or bond it to its neighbour");
+                     "; fix it, or connect it to its neighbour");
 }
 
 }  // namespace
@@ -20,8 +20,8 @@ void refuse_named_motions(const AssembledSystem& system, bool is_fixed) {
 void refuse_mechanism(const AssembledSystem& system, bool is_fixed) {
   refuse_named_motions(system, is_fixed);
   throw ComputationError(
-      "the body is a mechanism, or so nearly that rounding hides how its softest motion strains "
-      "it: " +
+      "the body is a mechanism, or so close to one that rounding errors exceed the strain energy "
+      "of its softest motion: " +
       cause_of_rounding(system.model().mesh()));
 }
 

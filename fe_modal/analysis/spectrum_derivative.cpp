@@ -49,9 +49,9 @@ double coupling(const GroupDerivative& derivative, const std::vector<DesignParam
 }
 
 std::string group_note(const std::string& names, double spread, double coupled) {
-  return names + " lie within " + rounded_text(100 * spread, 2) +
-         " % of one another: the mean and directional derivatives" +
-         (coupled < kUncoupled ? ", and by symmetry class, which no parameter couples"
+  return names + " are within " + rounded_text(100 * spread, 2) +
+         " % of one another; shown are the mean and the directional derivatives" +
+         (coupled < kUncoupled ? ", also by symmetry class, since no parameter couples the classes"
                                : "; coupled by the parameters") +
          " (" + rounded_text(coupled, 2) + ")";
 }

@@ -98,7 +98,7 @@ StaticSolution analyse_static(const mesher::Mesh& mesh, const ModalOptions& opti
   if (!(solution.imbalance < kBalanced))
     throw ComputationError(
         "the static step is not in equilibrium: " + rounded_text(solution.imbalance) +
-        " of the forces are left over at free nodes");
+        " of the forces remain unbalanced at free nodes");
   const std::vector<std::array<bool, 3>> reacting = reacting_directions_of(mesh, options);
   // Weights of masses at points are loads, transferred to nodes by connections.
   const Eigen::Matrix3Xd weights_N = weights_on_nodes(mesh, model.connections(), loads);

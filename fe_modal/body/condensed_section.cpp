@@ -62,10 +62,10 @@ void check_independent(const ModalBody& body, const Interface& top, MatrixXd mot
   for (Eigen::Index k = 0; k < motions.cols(); ++k) motions.col(k).normalize();
   const Eigen::FullPivLU<MatrixXd> pivots(motions);
   if (pivots.rcond() > kDependent) return;
-  throw InputError("the modes of a body with '" + body.boundary + "' do not move interface '" +
-                   top.name +
-                   "' in six independent ways, and its slits in theirs; a section needs its "
-                   "static shapes alone");
+  throw InputError("the modes of the body with boundary condition '" + body.boundary +
+                   "' do not move interface '" + top.name +
+                   "' and its slits independently in all degrees of freedom; a section needs "
+                   "exactly the static shapes of that interface");
 }
 
 /// Map from the other coordinates to all, with the last `count` ones, on which no load acts,
@@ -91,12 +91,11 @@ void check_one_sliding_slit(const ModalBody& body) {
     slides = slides || !motion.opens;
   }
   if (!slides)
-    throw InputError(
-        "friction needs slits whose sides slide: make its modes with slits = "
-        "\"openings-and-sliding\"");
+    throw InputError("slit_friction needs modes made with slits = \"openings-and-sliding\"");
   if (slits.size() > 1)
-    throw InputError("friction is that of one slit in a section, found " +
-                     std::to_string(slits.size()) + "; cut it into pieces with one each");
+    throw InputError("friction is supported for one slit per section, found " +
+                     std::to_string(slits.size()) +
+                     " slits; divide the section into substructures with one slit each");
 }
 
 }  // namespace
@@ -104,14 +103,13 @@ void check_one_sliding_slit(const ModalBody& body) {
 CondensedSection condense(const ModalBody& body, const std::string& base, const std::string& top,
                           Sliding sliding) {
   if (!body.prestress.empty())
-    throw InputError(
-        "a section is of a body without prestress, found modes about the stresses of " +
-        body.prestress + "; make them without modes.prestress");
+    throw InputError("a section needs modes without prestress, found modes prestressed by " +
+                     body.prestress + "; make the modes without modes.prestress");
   const Eigen::Index m = body.mode_count();
   const auto slits = static_cast<Eigen::Index>(body.slits.size());
   if (m != 6 + slits) {
-    throw InputError("a section between two faces has " + std::to_string(6 + slits) +
-                     " modes, the static shapes of its top and of what its slits do; found " +
+    throw InputError("a section between two faces needs " + std::to_string(6 + slits) +
+                     " modes, the static shapes of its top and of its slits; found " +
                      std::to_string(m));
   }
   const Interface& fixed = body.interface(base);

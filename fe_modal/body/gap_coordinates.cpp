@@ -64,7 +64,7 @@ MatrixXd parting(const Motions& motions, const VectorXd& stiffness) {
   if (held.rows() > held.cols() || !(sizes.array() > 0).all() ||
       pivots.rcond() < kLeastReciprocalCondition)
     throw InputError(
-        "its modes do not move its interfaces and part its slits independently of one another; a "
+        "the modes do not move the interfaces and open the slits independently of one another; a "
         "body whose slits open and close needs the static shapes of all its interfaces");
   const Index ways = motions.slits.rows();
   const MatrixXd amplitudes = sizes.head(ways).cwiseInverse().asDiagonal();
@@ -163,7 +163,7 @@ ModalBody transformed(const ModalBody& body, const MatrixXd& T, const VectorXd& 
 GapBody with_gap_coordinates(const ModalBody& body) {
   if (body.geometric_stiffness || !body.prestress.empty())
     throw InputError(
-        "slits that open and close are not offered with stress stiffening or stresses");
+        "slits that open and close are not supported with stress stiffening or prestress");
   const Motions motions = motions_of(body);
   const VectorXd stiffness = (2 * std::numbers::pi * body.frequencies_Hz).cwiseAbs2();
   const MatrixXd parted = parting(motions, stiffness);
@@ -179,7 +179,7 @@ GapBody with_gap_coordinates(const ModalBody& body) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> pairs(
       still.transpose() * stiffness.asDiagonal() * still, still.transpose() * still);
   if (pairs.info() != Eigen::Success)
-    throw ComputationError("the modes of a body with its slits shut were not found");
+    throw ComputationError("the eigensolution of the body with closed slits failed");
   const MatrixXd T = still * pairs.eigenvectors();
   const MatrixXd loads = openings.transpose() * stiffness.asDiagonal();
   return {transformed(body, T, pairs.eigenvalues(), motions.interfaces.rows()), loads * openings,

@@ -23,8 +23,8 @@ std::string entry_text(Eigen::Index row, Eigen::Index column) {
 void require_identity(const std::string& dataset, const std::string& identity, double difference,
                       double allowed) {
   if (std::abs(difference) <= allowed) return;
-  throw InputError(dataset + ": expected that " + identity + ", but it is off by " +
-                   number_text(std::abs(difference)) + ", more than rounding's " +
+  throw InputError(dataset + ": expected that " + identity + ", but the difference is " +
+                   number_text(std::abs(difference)) + ", more than the rounding error of " +
                    number_text(allowed));
 }
 
@@ -43,10 +43,11 @@ void require_positive(const std::string& dataset, const std::string& what,
   const auto identity = Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols());
   const Eigen::LLT<Eigen::MatrixXd> factor(matrix + allowed * identity);
   if (factor.info() == Eigen::Success) return;
-  throw InputError(dataset + ": expected that " + what +
-                   " is positive, but its lowest eigenvalue, of a diagonal of 1, is " +
-                   number_text(symmetric_eigenvalues(matrix)[0]) + ", below rounding's " +
-                   number_text(-allowed));
+  throw InputError(
+      dataset + ": expected that " + what +
+      " is positive semidefinite, but its lowest eigenvalue, scaled to a unit diagonal, is " +
+      number_text(symmetric_eigenvalues(matrix)[0]) + ", below the rounding error of " +
+      number_text(-allowed));
 }
 
 Eigen::VectorXd unit_scales(const std::string& dataset, const Eigen::MatrixXd& matrix) {

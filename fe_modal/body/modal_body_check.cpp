@@ -58,7 +58,7 @@ void check_pair(const InertiaInvariants& inertia, std::size_t j, std::size_t l, 
       kMassNormalised);
   require_identity("/invariants/N", here + " is minus " + there,
                    (n + inertia.N[l * m + j]).cwiseAbs().maxCoeff(), rounding);
-  require_identity("/invariants/N", here + " has the antisymmetric part of G" + here,
+  require_identity("/invariants/N", here + " matches the antisymmetric part of G" + here,
                    (n - cross_integral(g)).cwiseAbs().maxCoeff(), 2 * rounding);
 }
 
@@ -128,14 +128,14 @@ void check_invariants(const InertiaInvariants& inertia, double rounding) {
   }
   const double second_moment = inertia.J0.trace() / 2;
   if (!(second_moment > 0)) {
-    throw InputError("/invariants/J0: expected moments of inertia, whose sum is positive");
+    throw InputError("/invariants/J0: expected moments of inertia with a positive sum");
   }
   require_symmetric("/invariants/J0", inertia.J0, rounding * second_moment);
   const double length = std::sqrt(second_moment);
   for (std::size_t l = 0; l < m; ++l) {
     const auto column = static_cast<Eigen::Index>(l);
     require_identity("/invariants/N0",
-                     "column " + std::to_string(l) + " has the antisymmetric part of G0[" +
+                     "column " + std::to_string(l) + " matches the antisymmetric part of G0[" +
                          std::to_string(l) + "]",
                      (inertia.N0.col(column) - cross_integral(inertia.G0[l])).cwiseAbs().maxCoeff(),
                      2 * rounding * length);
@@ -175,11 +175,12 @@ void check_modes(const ModalBody& body) {
       throw InputError("/basis/kind: [" + std::to_string(k) + "] is '" + kind +
                        "', expected normal, rigid, residual, inertia relief, ritz or constraint");
     }
-    if (!(hertz >= 0 && hertz <= kHighestHz)) refuse("a frequency that a solid can have");
-    if (kind == kRigidMode && hertz != 0) refuse("0, for its kind is rigid");
-    if (kind != kRigidMode && hertz == 0) refuse("more than 0, for its kind is not rigid");
+    if (!(hertz >= 0 && hertz <= kHighestHz))
+      refuse("a non-negative frequency of a physically possible size");
+    if (kind == kRigidMode && hertz != 0) refuse("0, since its kind is rigid");
+    if (kind != kRigidMode && hertz == 0) refuse("more than 0, since its kind is not rigid");
     if (hertz < before * (1 - kEqual))
-      refuse("no less than the one before, " + rounded_text(before));
+      refuse("at least the one before it, " + rounded_text(before));
     before = hertz;
   }
 }
@@ -241,10 +242,10 @@ void check_rigid_mode(const ModalBody& body, const RigidFit& fit, Eigen::Index k
     const std::string group = "/interfaces/" + interface.name;
     const Eigen::Vector3d translation = fit.translation(motion, interface.position_m);
     const double arm = 1 + translation.norm() / size;
-    require_identity(group + "/translation", mode + " moves it with the nodes",
+    require_identity(group + "/translation", mode + " moves the interface with the nodes",
                      (interface.translation.col(k) - translation).norm(), kSolved * size * arm);
     if (!fit.is_unique()) continue;
-    require_identity(group + "/rotation", mode + " turns it with the nodes",
+    require_identity(group + "/rotation", mode + " rotates the interface with the nodes",
                      (interface.rotation.col(k) - fit.rotation(motion)).norm(),
                      kSolved * size / fit.length());
   }
@@ -255,7 +256,7 @@ void check_rigid_mode(const ModalBody& body, const RigidFit& fit, Eigen::Index k
   require_identity("/invariants/S2", mode + " moves mass and S1 as one rigid body",
                    (inertia.S2.col(k) - inertia.mass * at_origin - turn.cross(inertia.S1)).norm(),
                    kSolved * std::sqrt(inertia.mass));
-  require_identity("/invariants/N0", mode + " turns S1 and J0 as one rigid body",
+  require_identity("/invariants/N0", mode + " rotates S1 and J0 as one rigid body",
                    (inertia.N0.col(k) - inertia.S1.cross(at_origin) - inertia.J0 * turn).norm(),
                    kSolved * std::sqrt(inertia.J0.trace() / 2));
 }
@@ -289,7 +290,7 @@ void check_response(const ModalBody& body, const Interface& interface) {
     rest -= motion * motion.transpose();
   }
   const Eigen::VectorXd scales = unit_scales(group + "/compliance", compliance);
-  require_positive(group + "/compliance", "the compliance less what the modes have of it",
+  require_positive(group + "/compliance", "the static compliance minus that of the modes",
                    scales.asDiagonal() * rest * scales.asDiagonal(), 6 * kSolved);
 }
 
@@ -302,7 +303,7 @@ void check_attached(const ModalBody& body, const AttachedFrequencies& attached) 
   }
   const Eigen::VectorXd& hertz = attached.frequencies_Hz;
   if (!(hertz.array() > 0).all() || !std::is_sorted(hertz.begin(), hertz.end())) {
-    throw InputError(group + "/frequencies: expected positive numbers that ascend");
+    throw InputError(group + "/frequencies: expected positive numbers in ascending order");
   }
   if (attached.mass_matrix) {
     check_positive(group + "/mass_matrix", "the mass of a rigid body", *attached.mass_matrix);

@@ -94,7 +94,7 @@ void write_shapes(Hdf5Writer& file, const ModalBody& body) {
 void read_shapes(const Hdf5Reader& file, std::size_t m, ModalBody& body) {
   const std::vector<double> nodes = file.read_doubles("/nodes", {kAnyExtent, 3}, "m");
   const std::size_t n = nodes.size() / 3;
-  if (n == 0) file.refuse("/nodes", "there is no node");
+  if (n == 0) file.refuse("/nodes", "expected at least one node, found none");
   body.nodes_m = Eigen::Map<const Eigen::Matrix3Xd>(nodes.data(), 3, static_cast<Eigen::Index>(n));
   const std::vector<double> values = file.read_doubles("/shapes", {m, n, 3}, kShapeUnit);
   for (std::size_t k = 0; k < m; ++k) {
@@ -142,8 +142,8 @@ void write_basis_table(Hdf5Writer& file, const ModalBody& body) {
 void read_basis(const Hdf5Reader& file, std::size_t m, ModalBody& body) {
   const std::vector<std::string> names = file.read_strings("/mode_names");
   const std::vector<std::string> kinds = file.read_strings("/basis/kind");
-  if (names.size() != m) file.refuse("/mode_names", "not as many names as frequencies");
-  if (kinds.size() != m) file.refuse("/basis/kind", "not as many kinds as frequencies");
+  if (names.size() != m) file.refuse("/mode_names", "expected one name per frequency");
+  if (kinds.size() != m) file.refuse("/basis/kind", "expected one kind per frequency");
   const std::vector<double> shares = file.read_doubles(kEnergyFractions, {m, 4}, "percent");
   const std::vector<double> residuals = file.read_doubles("/basis/residual", {m}, "1");
   for (std::size_t k = 0; k < m; ++k) {
@@ -160,7 +160,7 @@ void read_basis(const Hdf5Reader& file, std::size_t m, ModalBody& body) {
   }
   if (!file.has("/basis/solver")) return;
   const std::vector<std::string> solver = file.read_strings("/basis/solver");
-  if (solver.size() != 1) file.refuse("/basis/solver", "expected one text");
+  if (solver.size() != 1) file.refuse("/basis/solver", "expected a single text");
   body.solver = solver[0];
 }
 
@@ -273,7 +273,8 @@ void read_mesh_errors(const Hdf5Reader& file, ModalBody& body) {
   const std::vector<std::string> known = names_of(body.modes);
   for (std::size_t l = 0; l < k; ++l) {
     const auto mode = std::find(known.begin(), known.end(), names[l]);
-    if (mode == known.end()) file.refuse("/convergence/mode", "no mode is named " + names[l]);
+    if (mode == known.end())
+      file.refuse("/convergence/mode", "there is no mode with the name " + names[l]);
     body.modes[static_cast<std::size_t>(mode - known.begin())].mesh_error =
         MeshError{refined[l], macs[l], errors[l]};
   }
@@ -334,7 +335,7 @@ ModalBodyFile read_modal_body(const std::filesystem::path& path) {
   ModalBody& body = content.body;
   body.frequencies_Hz = read_vector(file, "/frequencies", kAnyExtent, "Hz");
   const std::size_t m = extent(body.frequencies_Hz.size());
-  if (m == 0) file.refuse("/frequencies", "there is no mode");
+  if (m == 0) file.refuse("/frequencies", "expected at least one mode, found none");
   read_basis(file, m, body);
   read_shapes(file, m, body);
   read_interfaces(file, m, body);

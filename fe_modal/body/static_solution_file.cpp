@@ -50,7 +50,7 @@ void check_balance(const Hdf5Reader& file, const StaticSolution& solution) {
   const Eigen::Vector3d force = loads.force_N + reactions.force_N;
   const Eigen::Vector3d moment = loads.moment_Nm + reactions.moment_Nm;
   if (force.norm() <= kBalanced * size && moment.norm() <= kBalanced * size * length) return;
-  file.refuse("/reactions", "they are not in equilibrium with /applied");
+  file.refuse("/reactions", "the reactions are not in equilibrium with /applied");
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ StaticSolutionFile read_static_solution(const std::filesystem::path& path) {
   StaticSolution& solution = content.solution;
   solution.nodes_m = read_columns<3>(file, "/nodes", kAnyExtent, "m");
   const auto n = static_cast<std::size_t>(solution.nodes_m.cols());
-  if (n == 0) file.refuse("/nodes", "there is no node");
+  if (n == 0) file.refuse("/nodes", "expected at least one node, found none");
   solution.displacements_m = read_columns<3>(file, "/displacements", n, "m");
   solution.applied_N = read_columns<3>(file, "/applied", n, "N");
   solution.reactions_N = read_columns<3>(file, "/reactions", n, "N");
@@ -97,7 +97,7 @@ StaticSolutionFile read_static_solution(const std::filesystem::path& path) {
     const bool in_range = std::all_of(each.nodes.begin(), each.nodes.end(), [&](std::int32_t node) {
       return node >= 0 && static_cast<std::size_t>(node) < n;
     });
-    if (!in_range) file.refuse(group + "/nodes", "there is no such node");
+    if (!in_range) file.refuse(group + "/nodes", "a node number is out of range");
     each.stress_Pa = read_columns<6>(file, group + "/stress", each.nodes.size(), "Pa");
     solution.at_nodes.push_back(std::move(each));
   }
@@ -109,7 +109,7 @@ StaticSolutionFile read_static_solution(const std::filesystem::path& path) {
       each.positions_m = read_columns<3>(file, group + "/positions", kAnyExtent, "m");
       const Eigen::Index count = each.positions_m.cols();
       if (points < 1 || count % points != 0)
-        file.refuse(group + "/positions", "expected a whole number of elements");
+        file.refuse(group + "/positions", "expected positions for a whole number of elements");
       each.points_per_element = static_cast<int>(points);
       each.stress_Pa =
           read_columns<6>(file, group + "/stress", static_cast<std::size_t>(count), "Pa");

@@ -70,8 +70,8 @@ void AffineConstraints::add_line(std::int32_t dof, std::span<const DofTerm> term
   if (is_dependent(dof)) {
     equation.push_back({dof, -1});
     if (size_of(expanded(equation)) <= kHolds * size_of(equation)) return;
-    throw InputError(source + " and " + source_of(dof) +
-                     " contradict one another: both determine " + describe_(dof));
+    throw InputError(source + " and " + source_of(dof) + " contradict each other: both determine " +
+                     describe_(dof));
   }
   std::vector<DofTerm> line = expanded(terms);
   const auto is_dof = [dof](const DofTerm& term) { return term.dof == dof; };

@@ -112,8 +112,8 @@ void hold_points(const mesher::Mesh& mesh, const mesher::Connections& connection
       motion.tail<3>() /= point.length_m;
       if ((point.mass * motion).norm() > kNothing * point.mass.norm() * motion.norm()) {
         throw InputError(connections.points[p].name +
-                         " carries a mass that nothing holds in some motion; couple nodes off one "
-                         "line to it, or add springs");
+                         " carries a mass with an unconstrained motion; couple at least three "
+                         "nodes that are not on one line to it, or add springs");
       }
       std::vector<DofTerm> terms;
       const std::int32_t first =

@@ -72,8 +72,8 @@ void connect(const Rows& elements, std::size_t node_count, std::vector<std::int3
     }
     if (columns.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
       throw InputError(
-          "the mesh has more pairs of neighbouring nodes than 32-bit integers count; "
-          "take a coarser one");
+          "the mesh has more pairs of neighbouring nodes than 32-bit integers can count; use a "
+          "coarser mesh");
     }
     std::sort(columns.begin() + row, columns.end());
     offsets.push_back(static_cast<std::int32_t>(columns.size()));

@@ -169,7 +169,7 @@ std::string RigidMotions::text() const {
   std::string text;
   if (slides.cols() > 0) text = "slides along " + directions(slides, "every direction");
   if (turns > 0) {
-    text += (text.empty() ? "turns about " : ", turns about ") +
+    text += (text.empty() ? "rotates about " : ", rotates about ") +
             directions(rotations.matrixU().leftCols(turns), "every axis");
   }
   return text;

@@ -22,7 +22,7 @@ class RigidMotions {
   /// @param dof_map map of the same constraints, in any numbering
   Eigen::MatrixXd vectors(const mesher::Mesh& mesh, const mesher::Connections& connections,
                           const DofMap& dof_map) const;
-  /// Text "slides along x and y, turns about z"; for a rotation about no stationary point, it
+  /// Text "slides along x and y, rotates about z"; for a rotation about no stationary point, it
   /// includes the translation along the axis; empty if there are no motions.
   std::string text() const;
 

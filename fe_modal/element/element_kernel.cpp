@@ -97,7 +97,7 @@ void ElementKernel::map(const Eigen::Matrix3Xd& nodes_m, Points& points) {
 void ElementKernel::find_roots(Points& points) {
   for (Eigen::Index q = 0; q < points.weights.size(); ++q) {
     const double volume = points.weights[q] * points.jacobians.middleCols<3>(3 * q).determinant();
-    if (!(volume > 0)) throw ComputationError("it is inverted at an integration point");
+    if (!(volume > 0)) throw ComputationError("the element is inverted at an integration point");
     points.roots[q] = std::sqrt(volume);
   }
 }

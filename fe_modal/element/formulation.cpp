@@ -103,14 +103,14 @@ std::vector<std::string> locking_warnings(const mesher::Mesh& mesh,
                              std::string(mesher::name_of(block.kind));
     if (block.kind == ElementKind::tet4 || block.kind == ElementKind::pyramid5)
       lines.push_back(part +
-                      ", linear ones, which are far too stiff in bending and shear unless they are "
-                      "very fine; mesh it with quadratic ones");
+                      ", which are linear and far too stiff in bending and shear unless the mesh "
+                      "is very fine; use quadratic elements");
     if (!locks_if_slender(block.kind)) continue;
     if (const double ratio = mesher::measure(mesh, block).max_aspect_ratio; ratio > kSlender)
-      lines.push_back(part + " up to " + rounded_text(ratio, 2) +
-                      " times as long as thick: one layer of them is too stiff in bending, and as "
-                      "much so when cut, so that the mesh's error is not seen; take hexahedra, or "
-                      "shorter elements");
+      lines.push_back(
+          part + " with an aspect ratio of up to " + rounded_text(ratio, 2) +
+          "; a single layer of them is too stiff in bending, even when refined, so that the "
+          "estimated discretisation error is too small; use hexahedra or shorter elements");
   }
   for (const mesher::Material& material : mesh.materials) {
     const Formulation chosen = formulation.of(material);
@@ -119,7 +119,7 @@ std::vector<std::string> locking_warnings(const mesher::Mesh& mesh,
     lines.push_back("material '" + material.name + "' with Poisson's ratio " +
                     rounded_text(material.poissons_ratio) + " in formulation '" +
                     std::string(name_of(chosen)) +
-                    "' makes elements too stiff; mixed_pressure does not");
+                    "' makes elements too stiff; use mixed_pressure");
   }
   return lines;
 }
@@ -146,7 +146,7 @@ const ElementScheme& element_scheme(mesher::ElementKind kind, Formulation formul
   }
   throw InputError("elements of kind " + std::string(mesher::name_of(kind)) +
                    " have no formulation '" + std::string(name_of(formulation)) + "', " +
-                   (offered.empty() ? "nor any other" : "expected one of " + offered));
+                   (offered.empty() ? "and no other one" : "expected one of " + offered));
 }
 
 }  // namespace flexneck::fe_modal

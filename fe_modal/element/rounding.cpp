@@ -78,10 +78,11 @@ std::string cause_of_rounding(const mesher::Mesh& mesh) {
   if (nearest->poissons_ratio > kNearlyIncompressible)
     return "Poisson's ratio of '" + nearest->name + "' is " +
            rounded_text(nearest->poissons_ratio, kDigits) +
-           ", too near 1/2 for so slender a body; each nine less makes a tenth of the error";
-  return "the body is so slender, or held so loosely, that what resists its softest motion is "
-         "small beside what its elements resist; model a shorter or thicker one, hold it in more "
-         "places, or take a beam's or plate's theory";
+           ", too close to 1/2 for such a slender body; each digit 9 fewer reduces the error by a "
+           "factor of ten";
+  return "the body is so slender, or so weakly supported, that its softest motion has hardly any "
+         "strain energy; model a shorter or thicker body, add supports, or use beam or plate "
+         "theory";
 }
 
 }  // namespace flexneck::fe_modal

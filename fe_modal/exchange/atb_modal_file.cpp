@@ -22,13 +22,14 @@ constexpr std::size_t kMaxModes = 4;
 std::vector<std::size_t> modes_to_write(const ModalBody& body) {
   if (!body.prestress.empty())
     throw InputError(
-        "the ATB would apply the loads again that the modes are prestressed by; make "
-        "them without modes.prestress");
+        "the ATB would apply the loads of the prestress a second time; make the modes without "
+        "modes.prestress");
   std::vector<std::size_t> modes;
   for (std::size_t k = 0; k < body.modes.size() && modes.size() < kMaxModes; ++k) {
     if (body.modes[k].kind == "normal") modes.push_back(k);
   }
-  if (modes.empty()) throw InputError("the ATB takes normal modes; this body has none");
+  if (modes.empty())
+    throw InputError("the ATB supports only normal modes, of which this body has none");
   return modes;
 }
 
@@ -74,8 +75,9 @@ void write_atb_modal_file(const std::filesystem::path& path, const mesher::Mesh&
                           const ModalBody& body) {
   const CornerMasses corners = lump_at_corners(mesh);
   if (corners.nodes.size() > kMaxNodes) {
-    throw InputError("the ATB takes " + std::to_string(kMaxNodes) + " nodes; this mesh has " +
-                     std::to_string(corners.nodes.size()) + " corners: make a coarser one");
+    throw InputError("the ATB supports at most " + std::to_string(kMaxNodes) +
+                     " nodes; this mesh has " + std::to_string(corners.nodes.size()) +
+                     " corner nodes; use a coarser mesh");
   }
   const std::vector<std::size_t> modes = modes_to_write(body);
   const double inches_per_metre = factor_from_si("m", "in");

@@ -18,7 +18,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-constexpr const char* kWrapping = "taking over a matrix";
+constexpr const char* kWrapping = "importing a matrix";
 constexpr double kSameInEachDirection = 1e-12;
 
 /// Wraps the arrays of a matrix, which PETSc reads in place.
@@ -117,8 +117,8 @@ void check(const ImportedBody& body) {
   const UpperMatrix difference = body.mass - expand_mass(nodal_mass_of(body.mass));
   if (largest_entry(difference) > kSameInEachDirection * largest_entry(body.mass)) {
     throw InputError(
-        "the mass must be the same in each direction, as that of solid elements is; that of beams, "
-        "shells and constraints is not");
+        "expected a mass matrix with equal entries in the three directions, as solid elements "
+        "have; beams, shells and constraints are not supported");
   }
 }
 
@@ -132,7 +132,7 @@ ModalBody analyse_matrices(const ImportedBody& input, const ModalOptions& option
                      std::to_string(input.stiffness.rows()) + " degrees of freedom, found " +
                      std::to_string(mode_count));
   }
-  if (progress) progress("factorising the stiffness that was given");
+  if (progress) progress("factorising the given stiffness matrix");
   const ImportedSystem system(input, options.solver);
   const std::unique_ptr<const LinearSolver> inverse = shift_inverse(system, 0);
   auto [pairs, completeness] = lowest_modes(system, *inverse, mode_count, {}, options.check, warn);

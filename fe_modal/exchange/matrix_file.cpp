@@ -60,8 +60,8 @@ class BinaryInput {
   void require_class(std::int32_t expected, const std::string& what) {
     const auto found = number<std::int32_t>();
     if (found != expected) {
-      refuse("expected a " + what + " in PETSc's binary format, class " + std::to_string(expected) +
-             ", found " + std::to_string(found));
+      refuse("expected a " + what + " in PETSc's binary format with class " +
+             std::to_string(expected) + ", found " + std::to_string(found));
     }
   }
   /// A count of items, for which the file must have room.
@@ -154,7 +154,7 @@ bool is_binary(const std::filesystem::path& path) {
   if (path.extension() == ".petsc") return true;
   if (path.extension() == ".mtx") return false;
   throw InputError(path.string() +
-                   ": expected the ending .mtx (Matrix Market) or .petsc (PETSc binary)");
+                   ": expected the extension .mtx (Matrix Market) or .petsc (PETSc binary)");
 }
 
 /// Upper half of a symmetric matrix; entries (row, column) and (column, row) of a general matrix
@@ -171,7 +171,7 @@ UpperMatrix upper_half(const std::filesystem::path& path, const MatrixEntries& m
   std::vector<MatrixEntry> upper;
   double largest = 0;
   for (const MatrixEntry& entry : matrix.entries) {
-    if (!std::isfinite(entry.value())) refuse("an entry is not finite");
+    if (!std::isfinite(entry.value())) refuse("expected finite entries, found NaN or infinity");
     largest = std::max(largest, std::abs(entry.value()));
     if (entry.row() >= entry.col()) lower.emplace_back(entry.col(), entry.row(), entry.value());
     if (entry.row() <= entry.col()) upper.push_back(entry);

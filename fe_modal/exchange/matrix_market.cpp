@@ -31,7 +31,7 @@ class NumberLines {
     std::transform(header_.begin(), header_.end(), header_.begin(),
                    [](char c) { return lower_case(c); });
     if (!header_.starts_with("%%matrixmarket matrix")) {
-      refuse("expected a file that starts with %%MatrixMarket matrix");
+      refuse("expected a file whose first line starts with %%MatrixMarket matrix");
     }
   }
 
@@ -134,7 +134,7 @@ MatrixEntries read_matrix_market(const std::filesystem::path& path) {
     const std::vector<double> entry = lines.next(3);
     const std::int32_t row = lines.integer(entry[0], 1, matrix.rows) - 1;
     const std::int32_t column = lines.integer(entry[1], 1, matrix.columns) - 1;
-    if (is_half && column > row) lines.refuse("expected entries of the lower half only");
+    if (is_half && column > row) lines.refuse("expected only entries of the lower triangle");
     matrix.entries.emplace_back(row, column, entry[2]);
   }
   return matrix;
@@ -154,7 +154,8 @@ Eigen::MatrixXd read_matrix_market_array(const std::filesystem::path& path) {
     lines.refuse("expected \"array real general\"");
   }
   const std::vector<double> sizes = lines.next(2);
-  if (!(sizes[0] * sizes[1] <= lines.size())) lines.refuse("more numbers than the file has");
+  if (!(sizes[0] * sizes[1] <= lines.size()))
+    lines.refuse("the sizes require more numbers than the file contains");
   Eigen::MatrixXd table(lines.count(sizes[0], 1), lines.count(sizes[1], 1));
   for (double& value : table.reshaped()) value = lines.next(1)[0];
   return table;

@@ -100,7 +100,7 @@ class Groups {
       if (error != std::errc() || group_ < 1 || group_ > kGroups)
         refuse(number, "expected a RECORD GROUP from 1 to " + std::to_string(kGroups));
       if (!words_.try_emplace(group_).second)
-        refuse(number, "RECORD GROUP " + std::to_string(group_) + " comes twice");
+        refuse(number, "RECORD GROUP " + std::to_string(group_) + " occurs twice");
     } else if (line.starts_with("**")) {
       comment(line.substr(2));
     } else {
@@ -215,8 +215,8 @@ InertiaInvariants lumped_invariants(const Groups& file, const Extents& extents,
   const MatrixXd lumps = file.matrix(11, static_cast<double>(extents.nodes), 6);
   if (!lumps.rightCols<3>().isZero(0))
     file.refuse(file.words(11).front().line,
-                "lumped masses with rotary inertia are not read: the exact invariants of RECORD "
-                "GROUP 12 and 14 to 18 are");
+                "lumped masses with rotary inertia are not supported; use a file with the "
+                "invariants in RECORD GROUP 12 and 14 to 18");
   const std::size_t m = extents.modes;
   InertiaInvariants sum;
   sum.S1.setZero();

@@ -53,7 +53,7 @@ Spectrum spectrum_of(const ReducedBody& reduced) {
   if (are_eigenvectors(reduced))
     return {reduced.stiffness.diagonal(), MatrixXd::Identity(m, m), true};
   if (Eigen::LLT<MatrixXd>(reduced.invariants.Maa).info() != Eigen::Success)
-    throw InputError("the generalised mass is not positive definite");
+    throw InputError("expected a positive definite generalised mass matrix");
   auto [values, vectors] = symmetric_pairs(reduced.stiffness, reduced.invariants.Maa);
   return {std::move(values), std::move(vectors)};
 }
@@ -141,8 +141,9 @@ std::string damping_note(const MatrixXd& damping, const Eigen::VectorXd& omega) 
   coupling.diagonal().setZero();
   const bool couples =
       coupling.cwiseAbs().maxCoeff() > kAgree * damping.diagonal().cwiseAbs().maxCoeff();
-  return "the file's damping is not part of a modal body: a model says it, as damping_ratio = [" +
-         list + "]" + (couples ? "; what of it couples modes is lost" : "");
+  return "the damping of the file is not part of a modal body; set it in the model, with "
+         "damping_ratio = [" +
+         list + "]" + (couples ? "; its coupling of modes is lost" : "");
 }
 
 std::vector<ModeRecord> records_of(const ReducedBody& reduced, const Spectrum& spectrum,
@@ -164,7 +165,10 @@ Eigen::VectorXd angular_frequencies(const Eigen::VectorXd& squares) {
   Eigen::VectorXd omega(squares.size());
   for (Index k = 0; k < squares.size(); ++k) {
     if (squares[k] < -kNothing * largest)
-      throw InputError("the generalised stiffness is negative in mode " + std::to_string(k + 1));
+      throw InputError(
+          "expected a positive semidefinite generalised stiffness matrix, found a negative value "
+          "for mode " +
+          std::to_string(k + 1));
     omega[k] = squares[k] > kNothing * largest ? std::sqrt(squares[k]) : 0;
   }
   return omega;
@@ -187,7 +191,8 @@ void add_nodes(const ReducedBody& reduced, const MatrixXd& T, ModalBody& body) {
 }  // namespace
 
 ImportedModes import_modes(const ReducedBody& reduced) {
-  if (reduced.nodes.empty()) throw InputError("there is no node at which other bodies attach");
+  if (reduced.nodes.empty())
+    throw InputError("expected at least one node at which other bodies attach, found none");
   const Spectrum spectrum = spectrum_of(reduced);
   check_agreement(reduced.invariants);
   const MatrixXd& T = spectrum.vectors;
@@ -206,8 +211,8 @@ ImportedModes import_modes(const ReducedBody& reduced) {
   add_nodes(reduced, T, body);
   if (!spectrum.is_as_given)
     result.notes.emplace_back(
-        "mass or stiffness couple the file's modes: they are combined into uncoupled ones, "
-        "numbered anew");
+        "the modes of the file are coupled by mass or stiffness; they are replaced by uncoupled "
+        "combinations with new numbers");
   const MatrixXd damping = T.transpose() * reduced.damping * T;
   if (!damping.isZero(0)) result.notes.push_back(damping_note(damping, omega));
   check_modal_body(body);
@@ -220,9 +225,9 @@ Eigen::Matrix3d inertia_integral(const Eigen::Matrix3d& symmetric, const Eigen::
 
 void require_agreement(const std::string& these, double difference, double scale) {
   if (std::abs(difference) <= kAgree * std::abs(scale)) return;
-  throw InputError(these + " contradict each other by " + text_within(std::abs(difference), 10) +
-                   ", where the numbers are about " + text_within(std::abs(scale), 10) +
-                   "; a body has one mass distribution for all of them");
+  throw InputError(these + " differ by " + text_within(std::abs(difference), 10) +
+                   ", although their values are about " + text_within(std::abs(scale), 10) +
+                   ", and they must belong to the same mass distribution");
 }
 
 std::string text_of_mode(const ModeRecord& mode) { return mode.name + ", " + mode.kind; }

@@ -121,7 +121,7 @@ void read_entry(const Lines& file, Index structure, Series& series) {
   const Index i = at.front(), j = at.back(), k = is_first ? at[1] : 0;
   if (i < 0 || i >= series.m0.rows() || j < 0 || j >= series.m0.cols() || k < 0 ||
       (is_first && k >= static_cast<Index>(series.m1.size())))
-    file.refuse("'" + std::string(file.key()) + "' is outside of the block");
+    file.refuse("'" + std::string(file.key()) + "' is outside the block");
   MatrixXd& matrix = is_first ? series.m1[static_cast<std::size_t>(k)] : series.m0;
   matrix(i, j) = file.real();
   if (structure == kSymmetric && j < matrix.rows() && i < matrix.cols())
@@ -169,7 +169,9 @@ Interface read_node(Lines& file, const std::map<std::string, std::string>& names
       node.rotation = read_series(file, "psi", {3, modes, 0}, modes).m0;
     } else if (file.line() == "AP") {
       if (!read_series(file, "AP", {3, 3, 1}, modes).m0.isIdentity(1e-9))
-        file.refuse("the node's axes are turned against the body's; markers of a model turn them");
+        file.refuse(
+            "expected nodes whose axes are parallel to those of the body; rotated axes are "
+            "supported only by the markers of a model");
     } else {
       file.refuse("expected origin, phi, psi or AP, found '" + std::string(file.line()) + "'");
     }
@@ -214,7 +216,8 @@ void read_reference(Lines& file, Contents& contents) {
       file.refuse("expected mass, nelastq or ielastq, found '" + std::string(file.line()) + "'");
     }
   }
-  if (contents.modes == 0) file.refuse("refmod lacks nelastq");
+  if (contents.modes == 0)
+    file.refuse("expected nelastq, the number of modes, in refmod, found none");
   if (contents.records.size() != static_cast<std::size_t>(contents.modes)) contents.records.clear();
 }
 
@@ -223,7 +226,7 @@ Contents read_contents(Lines& file) {
   file.next();
   const std::size_t colon = file.line().find(':');
   if (colon == std::string_view::npos)
-    file.refuse("expected the numbers of nodes and modes and a text behind a colon");
+    file.refuse("expected the numbers of nodes and modes, a colon and a text");
   const auto names = names_in(file.line().substr(colon));
   file.next();
   file.expect("part");
@@ -250,7 +253,7 @@ Contents read_contents(Lines& file) {
                   "'");
     Series series = read_series(file, kind->first, kind->second, m);
     if (!contents.blocks.emplace(kind->first, std::move(series)).second)
-      file.refuse(kind->first + " comes twice");
+      file.refuse(kind->first + " occurs twice");
   }
   for (const auto& [name, block] : kinds)
     if (contents.blocks.count(name) == 0) file.refuse("the block " + name + " is missing");
@@ -277,13 +280,13 @@ double largest(const MatrixXd& matrix) { return matrix.cwiseAbs().maxCoeff(); }
 void require_first_order(const Lines& file, const Contents& contents, const std::string& name,
                          const std::string& what) {
   if (contents.blocks.at(name).m1.empty())
-    file.refuse(name + " has no first order, so that the file lacks the " + what);
+    file.refuse(name + " has no first-order terms, so that the file lacks the " + what);
 }
 
 InertiaInvariants invariants_of(const Lines& file, const Contents& contents) {
   const auto& at = contents.blocks;
   require_first_order(file, contents, "Oe", "centrifugal terms of deformed modes");
-  require_first_order(file, contents, "J", "change of the moments of inertia");
+  require_first_order(file, contents, "J", "changes of the moments of inertia");
   require_first_order(file, contents, "Cr", "coupling of deformed modes with rotations");
   const Index m = contents.modes;
   InertiaInvariants inertia;

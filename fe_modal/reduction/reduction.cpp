@@ -94,7 +94,7 @@ Reduction complete_modes(const BodyOperators& body, const EigenPairs& normal,
   const bool free = body.shift != 0;
   const bool all_rigid_motions = (normal.values.array() == 0).count() >= rigid_count;
   if (kind != BasisKind::normal && free && !all_rigid_motions) {
-    throw InputError("inertia relief needs all rigid motions of the body: ask for " +
+    throw InputError("inertia relief needs all rigid-body modes of the body; request " +
                      std::to_string(rigid_count) + " modes or more");
   }
   if (interfaces.empty() || (free && !all_rigid_motions)) return reduction;

@@ -39,7 +39,8 @@ Eigen::MatrixXd conjugate_gradients(const Ranks& ranks, const BlockOperator& sti
     require(code, kSolving);
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
     require(KSPGetConvergedReason(solver.get(), &reason), kSolving);
-    if (reason < 0) throw ComputationError("static shapes of a body do not converge");
+    if (reason < 0)
+      throw ComputationError("the linear solver did not converge for a static shape of the body");
   }
   return shapes;
 }

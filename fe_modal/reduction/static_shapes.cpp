@@ -68,7 +68,7 @@ Eigen::MatrixXd correcting_loads(const StaticShapes& shapes,
       independent_loads(shapes.rest(chosen, chosen), shapes.compliance(chosen));
   if (independent.dropped > 0 && progress) {
     progress(std::to_string(independent.dropped) + " of " + std::to_string(chosen.size()) +
-             " correction modes are dropped: the other vectors of the basis hold them already");
+             " correction modes are dropped, since the other basis vectors contain them");
   }
   const auto count = static_cast<Eigen::Index>(chosen.size());
   Eigen::MatrixXd combinations =

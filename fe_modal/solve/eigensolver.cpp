@@ -220,8 +220,8 @@ void check_quotients(Mat mass, const LinearSolver& inverse, const EigenPairs& pa
   const Eigen::ArrayXd expected = (pairs.values.array() - inverse.shift()) * masses;
   if (((energies - expected).abs() <= kSameQuotient * expected.abs()).all()) return;
   throw ComputationError(
-      "the eigenvalues found are not those of the stiffness: what is solved with is not its "
-      "inverse; change modes.petsc_options");
+      "the computed eigenvalues do not satisfy the eigenproblem, since the linear solver is too "
+      "inaccurate; change modes.petsc_options");
 }
 
 /// Lowest pairs beside the known ones, without gaps.
@@ -240,7 +240,7 @@ EigenPairs lowest(Mat mass, const LinearSolver& inverse, Eigen::Index count,
     pairs.next = next.values[0];
     if (pairs.next >= pairs.values[count - 1] * (1 - kSame)) break;
     next = search(mass, inverse, 1, accuracy, all, number++);
-    if (next.values.size() == 0) throw NotConverged("the eigensolver lost a mode");
+    if (next.values.size() == 0) throw NotConverged("the eigensolver missed a mode");
     insert(next, pairs);
   }
   if (inverse.iterates()) check_quotients(mass, inverse, pairs);
@@ -291,7 +291,7 @@ double largest_eigenvalue(Mat a, const LinearSolver& inverse, double of_interest
   require(EPSSetConvergenceTestFunction(search.eps(), relative_error, &floor, nullptr), kSearching);
   const EigenPairs pairs = search.solve(1, kAccuracy, start_vector(a, 0));
   if (pairs.values.size() == 0)
-    throw NotConverged("the search for the largest eigenvalue does not converge");
+    throw NotConverged("the computation of the largest eigenvalue did not converge");
   return pairs.values[0];
 }
 

@@ -9,7 +9,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-constexpr const char* kCounting = "counting modes by inertia";
+constexpr const char* kCounting = "counting modes by a Sturm sequence";
 
 MatHandle indefinite_factor_of(Mat symmetric) {
   MatHandle factor;
@@ -38,7 +38,7 @@ Eigen::Index negative_eigenvalues(Mat symmetric, const Ranks& ranks) {
   constexpr PetscInt kMegabytesOfLargest = 16;
   require_memory(kCounting,
                  1e6 * ranks.on_this_machine() * infog(factor.get(), kMegabytesOfLargest),
-                 "take a coarser mesh, or leave the check out");
+                 "use a coarser mesh, or omit the check");
   require(MatCholeskyFactorNumeric(factor.get(), symmetric, &info), kCounting);
   const PetscInt status = infog(factor.get(), 1);
   if (status < 0)
@@ -46,7 +46,8 @@ Eigen::Index negative_eigenvalues(Mat symmetric, const Ranks& ranks) {
                            std::to_string(status) + ", " + std::to_string(infog(factor.get(), 2)));
   constexpr PetscInt kNullPivots = 28;
   if (infog(factor.get(), kNullPivots) > 0)
-    throw ComputationError("an eigenvalue lies where modes were to be counted; take another");
+    throw ComputationError(
+        "an eigenvalue coincides with the shift of the Sturm sequence check; use another shift");
   PetscInt negative = 0;
   PetscInt zero = 0;
   PetscInt positive = 0;

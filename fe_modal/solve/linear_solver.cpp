@@ -14,12 +14,12 @@
 namespace flexneck::fe_modal {
 namespace {
 
-constexpr const char* kMaking = "making the solver";
-constexpr const char* kMeasuring = "finding out what the factor takes";
-constexpr const char* kFactorising = "factorising the stiffness";
+constexpr const char* kMaking = "creating the linear solver";
+constexpr const char* kMeasuring = "estimating the size of the factor";
+constexpr const char* kFactorising = "factorising the stiffness matrix";
 constexpr const char* kSolving = "solving with the factor";
 constexpr const char* kWayOut =
-    "take a coarser mesh, or the solver mumps on several ranks or out of core (modes.petsc_options "
+    "use a coarser mesh, or the solver mumps on several ranks or out of core (modes.petsc_options "
     "= \"-st_mat_mumps_icntl_22 1\")";
 
 constexpr const char* kPrefix = "st_";  // prefix of options as for an EPS
@@ -43,13 +43,13 @@ bool wants_more_workspace(PetscInt status) {
 }
 
 [[noreturn]] void throw_not_definite() {
-  throw NotDefinite("the stiffness is not positive definite");
+  throw NotDefinite("the stiffness matrix is not positive definite");
 }
 
 Solver chosen(Solver solver, const Ranks& ranks) {
   if (solver == Solver::automatic) return ranks.are_many() ? Solver::mumps : Solver::cholmod;
   if (solver == Solver::cholmod && ranks.are_many())
-    throw InputError("the solver cholmod is for one process: take mumps on several ranks");
+    throw InputError("the solver cholmod runs on one process only; use mumps on several ranks");
   return solver;
 }
 
@@ -131,8 +131,9 @@ void LinearSolver::check_memory() const {
   MatInfo info{};
   require(MatGetInfo(trial.get(), MAT_LOCAL, &info), kMeasuring);
   if (info.nz_used > kMostEntries)
-    throw InputError("the factor of the stiffness has " + rounded_text(info.nz_used, 4) +
-                     " entries, and CHOLMOD takes at most 2147483647: take the solver mumps");
+    throw InputError(
+        "the factor of the stiffness matrix has " + rounded_text(info.nz_used, 4) +
+        " entries, more than the 2147483647 that CHOLMOD supports; use the solver mumps");
   require_memory(kFactorising, sizeof(double) * info.nz_used, kWayOut);
 }
 
@@ -158,9 +159,9 @@ void LinearSolver::factorise() {
     throw_not_definite();
   if (status >= 0) return;
   if (status == kNoMemory || status == kBeyondLimit || wants_more_workspace(status))
-    throw OutOfMemory("factorising the stiffness: memory does not suffice for MUMPS; " +
+    throw OutOfMemory("factorising the stiffness matrix: not enough memory for MUMPS; " +
                       std::string(kWayOut));
-  throw ComputationError("MUMPS failed while factorising the stiffness: error " +
+  throw ComputationError("MUMPS failed while factorising the stiffness matrix: error " +
                          std::to_string(status) + ", " + std::to_string(infog(factor(), 2)));
 }
 

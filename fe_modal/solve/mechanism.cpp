@@ -130,7 +130,7 @@ std::string describe_motion(const Part& part, Vector6d motion, double length_m) 
   foot -= axis * axis.dot(foot);  // the foot is the same for all parts that rotate together
   const double rounding = kNone * length_m;
   foot = foot.unaryExpr([&](double x) { return std::abs(x) < rounding ? 0.0 : x; });
-  return "turns freely about " + direction_name(axis) + " through (" +
+  return "rotates freely about " + direction_name(axis) + " through (" +
          rounded_texts({foot.data(), 3}, 3) + ") m";
 }
 
@@ -142,8 +142,8 @@ std::optional<std::string> describe_part(const Part& part, const Eigen::MatrixXd
   const double whole = fields.cwiseAbs().maxCoeff();
   const Eigen::Index ways = (svd.singularValues().array() > kNone * whole).count();
   if (ways == 0) return std::nullopt;
-  if (ways == 6) return "is not fixed: it moves freely in every way";
-  if (ways > 1) return "moves freely in " + std::to_string(ways) + " ways";
+  if (ways == 6) return "is not fixed: it can move freely in all six degrees of freedom";
+  if (ways > 1) return "moves freely in " + std::to_string(ways) + " independent ways";
   return describe_motion(part, svd.matrixU().col(0), length_m);
 }
 
@@ -160,7 +160,7 @@ double eigenvalue_scale(const mesher::Mesh& mesh) {
 
 Eigen::Array<bool, Eigen::Dynamic, 1> are_strainless(const ModalSystem& system,
                                                      const Eigen::MatrixXd& motions) {
-  constexpr const char* kAsking = "looking for motions without strain";
+  constexpr const char* kAsking = "searching for motions without strain";
   constexpr double kLost = 10 * std::numeric_limits<double>::epsilon();
   VecHandle diagonal;
   require(MatCreateVecs(system.stiffness(), diagonal.out(), nullptr), kAsking);

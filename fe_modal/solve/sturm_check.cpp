@@ -69,10 +69,10 @@ std::string complete_below(double eigenvalue) {
 std::string completeness_of(const Eigen::VectorXd& values, Eigen::Index count, double shift) {
   const Cluster last = cluster_of(values, count - 1, shift);
   if (last.end == count) {
-    return count == values.size() ? "checked: all modes that there are"
+    return count == values.size() ? "checked: all modes of the structure were found"
                                   : complete_below(between(values, count));
   }
-  const std::string cut = "; the count cuts " + name_of(last, values, shift);
+  const std::string cut = "; the number of modes splits " + name_of(last, values, shift);
   return (last.begin == 0 ? kNotChecked : complete_below(between(values, last.begin))) + cut;
 }
 
@@ -100,7 +100,7 @@ std::optional<std::string> check_complete(const ModalSystem& system, const Eigen
   const Eigen::Index counted = negative_eigenvalues(shifted.get(), system.ranks());
   if (counted != end) {
     throw ComputationError("the eigensolver found " + std::to_string(end) + " modes below " +
-                           hertz(sigma) + ", but the inertia of the stiffness counts " +
+                           hertz(sigma) + ", but the Sturm sequence check counts " +
                            std::to_string(counted));
   }
   return completeness_of(values, count, shift);
@@ -112,20 +112,20 @@ void check_eigenvalues(const Eigen::VectorXd& values, double shift) {
     if (values[k] >= -kRigidBody * scale && std::isfinite(values[k])) continue;
     throw ComputationError("eigenvalue " + std::to_string(k + 1) + " is " +
                            rounded_text(values[k], 3) +
-                           " 1/s^2, expected a number >= 0: stiffness or mass is not positive, or "
-                           "too near to it");
+                           " 1/s^2, expected a number >= 0: the stiffness or mass matrix is not "
+                           "positive definite, or too close to singular");
   }
 }
 
 void warn_of_cut(const EigenPairs& pairs, double shift, const Progress& warn) {
   const Eigen::Index count = pairs.values.size();
   if (count == 0 || !warn || (shift != 0 && is_rigid(pairs.next, shift))) return;
-  const std::string cuts = "the number of modes, " + std::to_string(count) + ", cuts ";
+  const std::string cuts = "the number of modes, " + std::to_string(count) + ", splits ";
   if (!(pairs.next - pairs.values[count - 1] < kCluster * pairs.next)) return;
   const Eigen::Index begin = cluster_of(pairs.values, count - 1, shift).begin;
   warn(cuts + "a cluster of equal frequencies at " + hertz(pairs.values[begin]) +
-       ", of which any combination is a mode: ask for more" +
-       (begin > 0 ? ", or for " + std::to_string(begin) : ""));
+       ", of which any combination is a mode; request more modes" +
+       (begin > 0 ? ", or only " + std::to_string(begin) : ""));
 }
 
 CheckedModes lowest_modes(const ModalSystem& system, const LinearSolver& inverse,

@@ -22,7 +22,7 @@
 namespace flexneck::fe_modal {
 namespace {
 
-constexpr const char* kMaking = "making the system matrices";
+constexpr const char* kMaking = "creating the system matrices";
 constexpr const char* kAdding = "assembling the system matrices";
 
 void finish(Mat matrix) {
@@ -41,8 +41,8 @@ class Sparsity {
     if (9.0 * static_cast<double>(graph.columns().size()) >
         static_cast<double>(std::numeric_limits<PetscInt>::max()))
       throw InputError(
-          "the stiffness has more entries than PETSc's integers count; take a coarser "
-          "mesh");
+          "the stiffness matrix has more entries than the integers of PETSc can count; use a "
+          "coarser mesh");
   }
 
   /// Makes a matrix of the upper half, three rows a block.

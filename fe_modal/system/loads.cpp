@@ -70,7 +70,7 @@ mesher::FaceSet boundary_faces(const mesher::Mesh& mesh, const std::string& name
       const auto nodes = std::span(std::as_const(block.nodes)).subspan(first, width);
       if (boundary.count(mesher::key_of_face(block.kind, nodes)) == 0)
         throw InputError("face set '" + name +
-                         "' has faces inside the body, expected some of its boundary");
+                         "' has faces inside the body, expected only boundary faces");
     }
     mesher::orient_outwards(mesh, name, block);
   }
@@ -165,7 +165,7 @@ struct Words {
   std::string operator()(const SupportLoad& load) const {
     std::string text = "support '" + load.set + "' moves by " + text_of(load.translation_m) + " m";
     if (load.rotation_rad.norm() > 0)
-      text += ", turns by " + text_of(load.rotation_rad) + " rad about " +
+      text += ", rotates by " + text_of(load.rotation_rad) + " rad about " +
               text_of(load.position_m) + " m";
     return text;
   }

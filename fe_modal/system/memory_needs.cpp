@@ -44,10 +44,10 @@ void check_memory(const mesher::Mesh& mesh, const ModalOptions& options) {
     require_memory(doing, memory_needs(count, options.mode_count).assembling, way_out);
   };
   require("assembling for " + std::to_string(options.mode_count) + " modes of " + dofs_text(dofs),
-          dofs, "take a coarser mesh or fewer modes");
+          dofs, "use a coarser mesh or fewer modes");
   if (options.check)
-    require("the mesh's error, estimated with " + dofs_text(kCutInEight * dofs) + ",",
-            kCutInEight * dofs, "take a coarser mesh, or leave out modes.check");
+    require("the estimate of the discretisation error, with " + dofs_text(kCutInEight * dofs) + ",",
+            kCutInEight * dofs, "use a coarser mesh, or omit modes.check");
 }
 
 }  // namespace flexneck::fe_modal

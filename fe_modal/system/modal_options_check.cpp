@@ -47,15 +47,16 @@ void check_interfaces(const mesher::Mesh& mesh, const ModalOptions& options,
   if (!options.sign_interface.empty()) {
     static_cast<void>(find_name(names, options.sign_interface, "interface"));
     if (!(options.length_m > 0)) {
-      throw InputError("the length that turns rotations into lengths must be positive, found " +
-                       rounded_text(options.length_m) + " m");
+      throw InputError(
+          "the length that scales rotations to displacements must be positive, found " +
+          rounded_text(options.length_m) + " m");
     }
   }
   for (const RigidAttachment& attachment : options.attachments) {
     static_cast<void>(find_name(names, attachment.interface, "interface"));
     if (rigid.count() > 0) {
       throw InputError("rigid body '" + attachment.name + "' is attached to " + body_with(rigid) +
-                       ": name a set of nodes to fix");
+                       "; name a node set to fix");
     }
     if (!(attachment.mass_kg >= 0)) {
       throw InputError("the mass of rigid body '" + attachment.name + "' is negative");
@@ -64,7 +65,7 @@ void check_interfaces(const mesher::Mesh& mesh, const ModalOptions& options,
   if (!options.fixed_interface.empty()) {
     if (options.fixed_set.empty()) {
       throw InputError("interface '" + options.fixed_interface +
-                       "' is to lie on fixed nodes, but no set is fixed");
+                       "' is meant to be at fixed nodes, but no node set is fixed");
     }
     names.push_back(options.fixed_interface);
   }
@@ -78,18 +79,17 @@ void check_basis(const mesher::Mesh& mesh, const ModalOptions& options, Eigen::I
   const std::string who =
       "basis '" + basis_names().at(static_cast<std::size_t>(options.basis)) + "'";
   if (options.basis == BasisKind::inertia_relief && rigid.count() == 0) {
-    throw InputError(who + " is for a body that keeps rigid motions, and of one that is '" +
+    throw InputError(who + " needs a body with rigid-body motions, but a body that is '" +
                      boundary_of(mesh, options, rigid) +
-                     "' none is left; take 'residual' or fix less");
+                     "' has none; use 'residual' or fix fewer directions");
   }
   if (options.basis != BasisKind::inertia_relief && rigid.count() > 0) {
-    throw InputError(who + " is for a fixed body, but this is " + body_with(rigid) +
-                     "; take 'inertia-relief'");
+    throw InputError(who + " needs a fixed body, but this is " + body_with(rigid) +
+                     "; use 'inertia-relief'");
   }
   if (options.interfaces.empty()) {
-    throw InputError(who +
-                     " adds the static shapes of interface loads: name an interface that is "
-                     "not fixed");
+    throw InputError(
+        who + " adds the static shapes of interface loads; define an interface that is not fixed");
   }
   const std::vector<std::string> names = names_of(options.interfaces);
   for (const std::string& name : options.basis_interfaces) {
@@ -98,7 +98,7 @@ void check_basis(const mesher::Mesh& mesh, const ModalOptions& options, Eigen::I
   const auto constraints = static_cast<Eigen::Index>(
       6 * (options.basis_interfaces.empty() ? names.size() : options.basis_interfaces.size()));
   if (options.basis == BasisKind::craig_bampton && options.mode_count + constraints > dofs) {
-    throw InputError(who + ": " + std::to_string(options.mode_count) + " modes with " +
+    throw InputError(who + ": " + std::to_string(options.mode_count) + " modes and " +
                      std::to_string(constraints) + " fixed interface motions are more than the " +
                      std::to_string(dofs) + " degrees of freedom");
   }
@@ -109,15 +109,16 @@ void check_slit_motions(const mesher::Mesh& mesh, const ModalOptions& options) {
   const bool statics = options.basis == BasisKind::craig_bampton && options.mode_count == 0;
   if (options.basis != BasisKind::residual && !statics)
     throw InputError(
-        "slits that open and close need static shapes: take the basis 'residual', or "
-        "'craig-bampton' with no modes");
+        "slits that open and close need static shapes; use the basis 'residual', or "
+        "'craig-bampton' without modes");
   if (options.check || options.geometric_stiffness)
     throw InputError(
-        "slits that open and close are offered neither with a check of completeness, which is that "
-        "of modes of one stiffness, nor with stress_stiffening");
+        "slits that open and close are not supported with modes.check, which requires a single "
+        "stiffness matrix, or with stress_stiffening");
   if (std::all_of(mesh.slits.begin(), mesh.slits.end(),
                   [](const mesher::Slit& slit) { return slit.tied; }))
-    throw InputError("slits that open and close: the mesh has no open slit");
+    throw InputError(
+        "modes.slits is set for slits that open and close, but the mesh has no open slit");
 }
 
 /// Refuses connections whose forces rotate with the body: forces in couplings, including those of
@@ -131,8 +132,8 @@ void refuse_turning_forces(const mesher::Mesh& mesh, const ModalOptions& options
   turning.couplings = all.couplings;
   turning.springs = all.springs;
   if (turning.empty()) return;
-  throw InputError(what + " is not offered with " + turning.text() +
-                   ", whose forces would turn with the body: leave these out");
+  throw InputError(what + " is not supported with " + turning.text() +
+                   ", whose forces would rotate with the body; remove these");
 }
 
 void check_prestress(const mesher::Mesh& mesh, const ModalOptions& options,
@@ -143,8 +144,8 @@ void check_prestress(const mesher::Mesh& mesh, const ModalOptions& options,
   require_supports(rigid, "a prestress");
   if (options.geometric_stiffness || options.slit_motions != SlitMotions::none) {
     throw InputError(
-        "a prestress is not offered with the geometric stiffness of unit loads, nor with slits "
-        "that open and close: their loads would add to it");
+        "a prestress is not supported with the geometric stiffness under unit loads, or with slits "
+        "that open and close, whose loads would be added to it");
   }
 }
 
@@ -154,7 +155,7 @@ void require_supports(const RigidMotions& rigid, const std::string& who) {
   if (rigid.count() == 0) return;
   throw InputError(who + " needs supports, but " +
                    (rigid.count() == kAll ? "nothing is fixed" : "the body " + rigid.text()) +
-                   ": name node sets in modes.fixed or modes.fixed_directions");
+                   "; name node sets in modes.fixed or modes.fixed_directions");
 }
 
 namespace {
@@ -177,10 +178,8 @@ void check_resolved(const mesher::Mesh& mesh, const ModalOptions& options, const
   if (options.geometric_stiffness)
     refuse_turning_forces(mesh, options, "the geometric stiffness under unit loads");
   if (options.geometric_stiffness && rigid.count() > 0) {
-    throw InputError(
-        "the geometric stiffness under unit loads is that of a fixed body, and this "
-        "is " +
-        body_with(rigid) + ": name a set of nodes to fix");
+    throw InputError("the geometric stiffness under unit loads needs a fixed body, but this is " +
+                     body_with(rigid) + "; name a node set to fix");
   }
 }
 

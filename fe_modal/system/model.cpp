@@ -36,8 +36,8 @@ void require_work_for_all(const std::vector<std::int32_t>& rank_of_element, int 
     if (std::find(rank_of_element.begin(), rank_of_element.end(), rank) != rank_of_element.end())
       continue;
     throw InputError("rank " + std::to_string(rank) + " of " + std::to_string(count) +
-                     " gets none of the mesh's " + std::to_string(rank_of_element.size()) +
-                     " elements: start fewer ranks");
+                     " would have none of the mesh's " + std::to_string(rank_of_element.size()) +
+                     " elements; start fewer ranks");
   }
 }
 

@@ -80,8 +80,8 @@ void spread_over_ties(const mesher::Mesh& mesh, Directions& directions) {
 void refuse_connected(const mesher::Connections& connections, const Directions& moved) {
   for_connected_nodes(connections, moved.size(), [&](std::int32_t node, const std::string& name) {
     if (moved[static_cast<std::size_t>(node)] == std::array<bool, 3>{}) return;
-    throw InputError("supports that move are not offered at nodes of " + name +
-                     ": leave that out, or move other nodes");
+    throw InputError("supports with a displacement are not possible at nodes of " + name +
+                     "; remove it, or move other nodes");
   });
 }
 
@@ -93,21 +93,22 @@ void move(const mesher::Mesh& mesh, const Directions& fixed, const SupportLoad& 
   for (const std::int32_t node : mesh.node_set(load.set).nodes) {
     const auto k = static_cast<std::size_t>(node);
     if (fixed[k] == std::array<bool, 3>{})
-      throw InputError("node set '" + load.set +
-                       "' has nodes that are not fixed: name it in modes.fixed or "
-                       "modes.fixed_directions");
+      throw InputError(
+          "node set '" + load.set +
+          "' has nodes that are not fixed; name it in modes.fixed or modes.fixed_directions");
     const Eigen::Vector3d motion =
         load.translation_m + load.rotation_rad.cross(nodes_m.col(node) - load.position_m);
     for (std::size_t a = 0; a < 3; ++a) {
       const auto b = static_cast<Eigen::Index>(a);
       if (!fixed[k][a]) {
         if (load.translation_m[b] == 0) continue;
-        throw InputError("node set '" + load.set + "' is not fixed in " + "xyz"[a] +
-                         ", but is to move in it: fix it, or leave that direction out");
+        throw InputError(
+            "node set '" + load.set + "' is not fixed in " + "xyz"[a] +
+            ", but has a displacement in that direction; fix it there, or remove the displacement");
       }
       if (moved[k][a] && displacements_m(b, node) != motion[b])
         throw InputError("node set '" + load.set +
-                         "' has nodes that another load moves by another displacement");
+                         "' has nodes to which another load gives a different displacement");
       moved[k][a] = true;
       displacements_m(b, node) = motion[b];
       has_moved = has_moved || motion[b] != 0;
@@ -115,7 +116,7 @@ void move(const mesher::Mesh& mesh, const Directions& fixed, const SupportLoad& 
   }
   if (!has_moved)
     throw InputError("node set '" + load.set +
-                     "' is not fixed in any direction in which it is to move");
+                     "' is not fixed in any direction of its displacement");
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ void AtomicFolder::commit() {
     temporary_.clear();
   } else if (!take_place(RENAME_EXCHANGE)) {
     throw ComputationError(path_.string() + ": cannot be written (" + std::strerror(errno) +
-                           "); remove what is there, or choose another folder");
+                           "); remove the existing folder, or choose another one");
   }
   if (!temporary_.empty()) remove_whole(std::exchange(temporary_, {}));
   cleanup_.reset();

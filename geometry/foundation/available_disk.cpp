@@ -21,8 +21,8 @@ void require_disk(const std::filesystem::path& folder, const std::string& what, 
                   const std::string& advice) {
   const double available = available_disk(folder);
   if (bytes <= available) return;
-  throw InputError(folder.string() + ": " + what + " takes about " + memory_text(bytes) +
-                   " of the disk, " + memory_text(available) + " are free: " + advice);
+  throw InputError(folder.string() + ": " + what + " needs about " + memory_text(bytes) +
+                   " of disk space, but only " + memory_text(available) + " are free; " + advice);
 }
 
 }  // namespace flexneck

@@ -104,15 +104,15 @@ double peak_memory() {
 }
 
 OutOfMemory out_of_memory(const std::string& doing, const std::string& advice) {
-  return OutOfMemory("memory runs out while " + doing + ": " + memory_text(peak_memory()) +
-                     " are taken, " + memory_text(available_memory()) + " are free; " + advice);
+  return OutOfMemory("out of memory while " + doing + ": " + memory_text(peak_memory()) +
+                     " are used, " + memory_text(available_memory()) + " are free; " + advice);
 }
 
 void require_memory(const std::string& what, double bytes, const std::string& advice) {
   const double available = available_memory();
   if (bytes <= available) return;
-  throw InputError(what + " takes about " + memory_text(bytes) + " of memory, " +
-                   memory_text(available) + " are free: " + advice);
+  throw InputError(what + " needs about " + memory_text(bytes) + " of memory, but only " +
+                   memory_text(available) + " are free; " + advice);
 }
 
 }  // namespace flexneck

@@ -108,7 +108,8 @@ class ByteReader {
     if (!rest_.empty()) refuse();
   }
   [[noreturn]] static void refuse() {
-    throw InputError("the archived model is damaged, or of another version of the program");
+    throw InputError(
+        "the archived model is damaged, or was made by another version of the program");
   }
 
  private:

@@ -100,10 +100,9 @@ Trust trust_of(const std::filesystem::path& path, const std::string& remedy) {
   const HashBlock found = first_block(file, path);
   if (!is_ours(found)) return Trust::foreign;
   if (found != hash_block_of(file, path)) {
-    throw InputError(path.string() +
-                     ": the HDF5 file is truncated or damaged: its content is not the one whose "
-                     "hash it holds; " +
-                     remedy);
+    throw InputError(
+        path.string() +
+        ": the HDF5 file is truncated or damaged: its content does not match its hash; " + remedy);
   }
   return Trust::verified;
 }

@@ -67,7 +67,7 @@ struct Hdf5Reader::Impl {
         H5Dread(dataset.get(), type, H5S_ALL, H5S_ALL, transfer.get(), values.data());
     if (is_out_of_range) {
       source.refuse(name, "expected " + type_name + " of " + std::to_string(8 * sizeof(T)) +
-                              " bits, found one beyond their range");
+                              " bits, found a value out of range");
     }
     if (status < 0) source.fail(name);
     return values;
@@ -170,7 +170,7 @@ std::int64_t Hdf5Reader::integer_attribute(const std::string& object,
       impl_->read_attribute<std::int64_t>(object, name, H5T_NATIVE_INT64, {H5T_INTEGER}, "integer");
   // HDF5 returns this maximum for an unsigned number that does not fit.
   if (value == std::numeric_limits<std::int64_t>::max()) {
-    refuse(object, "the attribute '" + name + "' is beyond the range of 64 bits with sign");
+    refuse(object, "the attribute '" + name + "' is out of the range of signed 64-bit integers");
   }
   return value;
 }

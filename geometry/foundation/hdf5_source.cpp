@@ -31,7 +31,7 @@ std::string filter_problem(const Hdf5Handle& creation, int filters) {
     const bool is_known = filter == H5Z_FILTER_DEFLATE || filter == H5Z_FILTER_SHUFFLE ||
                           filter == H5Z_FILTER_FLETCHER32;
     if (!is_known || (found & (1U << static_cast<unsigned>(filter))) != 0) {
-      return "expected no other filters than gzip, shuffle and fletcher32, each once, found "
+      return "expected only the filters gzip, shuffle and fletcher32, each at most once, found "
              "filter " +
              std::to_string(filter);
     }
@@ -71,7 +71,7 @@ std::optional<std::string> extent_problem(const Hdf5Handle& dataset, std::uintma
   if (layout < 0 || foreign_files < 0 || filters < 0) return {};
   // This comes first: other queries might let HDF5 open another file.
   if (layout == H5D_VIRTUAL || foreign_files > 0) {
-    return "expected data in this file, found them in another one";
+    return "expected data in this file, found external storage";
   }
   if (std::string problem = filter_problem(creation, filters); !problem.empty()) return problem;
 
@@ -82,7 +82,7 @@ std::optional<std::string> extent_problem(const Hdf5Handle& dataset, std::uintma
   double bytes = static_cast<double>(H5Tget_size(type.get()));
   for (const double extent : *extents) bytes *= extent;
   if (bytes > (filters > 0 ? kMaxCompression : 1) * static_cast<double>(file_size)) {
-    return "is larger than its file can hold";
+    return "is larger than the file";
   }
   hsize_t chunks = 0;
   if (layout == H5D_CHUNKED && H5Dget_num_chunks(dataset.get(), space.get(), &chunks) < 0)
@@ -205,10 +205,10 @@ void Hdf5Source::refuse(const std::string& object, const std::string& problem) c
 }
 
 void Hdf5Source::fail(const std::string& object) const {
-  if (trust_ == Trust::foreign) refuse(object, "cannot be read, the file is damaged");
+  if (trust_ == Trust::foreign) refuse(object, "cannot be read; the file is damaged");
   throw ComputationError(
       path_.string() + ": " + object +
-      ": HDF5 cannot read it, although the file is sound; is there memory left?");
+      ": HDF5 cannot read it, although the file is intact; check the free memory");
 }
 
 Hdf5Handle Hdf5Source::opened(hid_t id, Hdf5Handle::Closer closer,
@@ -236,7 +236,7 @@ bool Hdf5Source::exists(const std::string& object) const {
     H5L_info_t link;
     if (H5Lget_info(file_.get(), step.c_str(), &link, H5P_DEFAULT) < 0) fail(step);
     if (link.type != H5L_TYPE_HARD) {
-      refuse(step, "expected an object of this file, found a link to another place");
+      refuse(step, "expected an object of this file, found a soft or external link");
     }
     if (end == std::string::npos) return true;
     if (type_of(step) != H5O_TYPE_GROUP) return false;
@@ -301,7 +301,7 @@ bool Hdf5Source::has_attribute(const std::string& object, const std::string& nam
 
 Hdf5Handle Hdf5Source::open_attribute(const std::string& object, const std::string& name) const {
   const std::string what = "attribute '" + name + "'";
-  if (!exists(object)) refuse(object, "expected it with the " + what + ", found nothing");
+  if (!exists(object)) refuse(object, "expected an object with the " + what + ", found nothing");
   if (!has_attribute(object, name)) refuse(object, "expected the " + what + ", found none");
   Hdf5Handle attribute =
       opened(H5Aopen_by_name(file_.get(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
@@ -333,7 +333,7 @@ std::vector<std::string> Hdf5Source::read_strings(const std::string& name) const
     const Hdf5Handle space = opened(H5Dget_space(dataset.get()), H5Sclose, name);
     hsize_t bytes = 0;
     if (H5Dvlen_get_buf_size(dataset.get(), type.get(), space.get(), &bytes) < 0) fail(name);
-    if (bytes > size_) refuse(name, "its strings are longer than the file");
+    if (bytes > size_) refuse(name, "expected strings that are not longer than the file");
   }
   std::vector<std::string> values = strings(type, shape[0], [&](hid_t memory_type, void* texts) {
     return H5Dread(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts);

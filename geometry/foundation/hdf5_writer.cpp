@@ -70,7 +70,7 @@ struct Hdf5Writer::Impl {
     bytes.require_written();
     if (!done) {
       throw ComputationError(bytes.path().string() + ": " + object +
-                             ": HDF5 cannot write it; is there memory left?");
+                             ": HDF5 cannot write it; check the free memory");
     }
   }
 
@@ -157,7 +157,7 @@ struct Hdf5Writer::Impl {
     if (value.size() > kMaxAttributeSize) {
       throw InputError(bytes.path().string() + ": " + object + ", attribute " + name +
                        ": a text of " + std::to_string(value.size()) +
-                       " bytes is longer than a file of HDF5 takes, " +
+                       " bytes is longer than an HDF5 attribute allows, " +
                        std::to_string(kMaxAttributeSize));
     }
     const Hdf5Handle type = string_type(value.size(), object);

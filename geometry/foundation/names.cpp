@@ -49,7 +49,7 @@ std::size_t find_name(const std::vector<std::string>& names, const std::string& 
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   std::string message = "there is no " + kind + " '" + name + "'" + did_you_mean(names, name);
-  if (names.empty()) throw InputError(message + "; there is none at all");
+  if (names.empty()) throw InputError(message + "; none are defined");
   message += "; there are:";
   for (const std::string& each : names) message += " '" + each + "'";
   throw InputError(message);
@@ -70,7 +70,7 @@ void check_names(const std::vector<std::string>& names, const std::string& kind)
       throw InputError(kind + " '" + name + "': a name must not contain '/'; choose another");
     }
     if (!seen.insert(name).second) {
-      throw InputError(kind + " '" + name + "' is there twice; names must differ");
+      throw InputError(kind + " '" + name + "' occurs twice; names must differ");
     }
   }
 }

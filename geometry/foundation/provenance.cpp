@@ -72,7 +72,7 @@ Provenance read_provenance(const Hdf5Reader& file) {
   const auto notes = file.read_strings(group + "/parameters/note");
   if (hashes.size() != names.size() || values.size() != keys.size() ||
       origins.size() != keys.size() || notes.size() != keys.size()) {
-    file.refuse(group, "expected tables with columns of equal length");
+    file.refuse(group, "expected columns of equal length");
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
     provenance.inputs.push_back({names[i], hashes[i]});

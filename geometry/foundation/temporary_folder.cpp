@@ -24,7 +24,7 @@ fs::path folder_for_temporary_files() {
   if (!failure) return folder;
   const char* const given = std::getenv("TMPDIR");
   throw InputError(std::string("TMPDIR: expected a folder for temporary files, found '") +
-                   (given != nullptr ? given : "") + "'; set it to one, or leave it out");
+                   (given != nullptr ? given : "") + "'; set it to a folder, or unset it");
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ TemporaryFolder::TemporaryFolder() {
   std::string name = (parent / kPrefix).string() + "XXXXXX";
   const SignalHold hold;
   if (mkdtemp(name.data()) == nullptr) {
-    throw ComputationError(name + ": a temporary folder cannot be made");
+    throw ComputationError(name + ": a temporary folder cannot be created");
   }
   path_ = name;
   held_ = hold_folder(path_);

@@ -62,7 +62,7 @@ Unit parse_unit(std::string_view text) {
   const std::string name(text);
   if (!is_plain_unit(name)) {
     throw InputError("expected a unit such as 'kg*m^2' or 'm/s', found '" + printable(name) +
-                     "'; a number has a decimal point, and no number stands within a unit");
+                     "'; decimals have a point, and a unit contains no number");
   }
   Unit unit(ut_parse(&unit_system(), name.c_str(), UT_ASCII), ut_free);
   if (!unit && ut_get_status() == UT_OS) throw std::bad_alloc();
@@ -120,7 +120,7 @@ double computed_factor(std::string_view from, std::string_view to) {
   if (!converter || angle != radians(*target) || (is_pure_number && to != from) ||
       cv_convert_double(converter.get(), 0.0) != 0) {
     throw InputError("expected a unit such as '" + std::string(to) + "', found '" +
-                     std::string(from) + "', which measures something else");
+                     std::string(from) + "', which has another dimension");
   }
   return cv_convert_double(converter.get(), 1.0);
 }

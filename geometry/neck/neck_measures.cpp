@@ -49,7 +49,7 @@ NeckMeasures measure(const NeckParameters& neck,
     const auto density = density_kg_m3.find(layer.part);
     if (density == density_kg_m3.end()) {
       throw InputError("part '" + layer.part +
-                       "' has no material; list it under a material's parts");
+                       "' has no material; add it to the parts of a material");
     }
     Moments part = cylinder(density->second, layer.diameter_m, layer.offset_m, layer.bottom_m,
                             layer.thickness_m);

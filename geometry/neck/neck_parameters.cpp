@@ -23,26 +23,30 @@ std::string in_inches(double length_m) {
 constexpr std::array<NeckDimension, 14> kDimensions = {{
     {"length", &NeckParameters::length, false, "height of the neck, end plates included"},
     {"base_plate_thickness", &NeckParameters::base_plate_thickness, false,
-     "thickness, lowest plate"},
+     "thickness of the base plate"},
     {"plate_thickness", &NeckParameters::plate_thickness, false,
-     "thickness of each of the three plates between rubber"},
+     "thickness of each of the three intermediate plates"},
     {"top_plate_thickness", &NeckParameters::top_plate_thickness, false,
-     "thickness, uppermost plate"},
-    {"plate_diameter", &NeckParameters::plate_diameter, false, "of all five plates"},
-    {"hole_diameter", &NeckParameters::hole_diameter, false, "cable hole, through everything"},
-    {"centre_rubber_diameter", &NeckParameters::centre_rubber_diameter, false, "of rubber 2 and 3"},
+     "thickness of the top plate"},
+    {"plate_diameter", &NeckParameters::plate_diameter, false, "diameter of all five plates"},
+    {"hole_diameter", &NeckParameters::hole_diameter, false,
+     "diameter of the central hole for the cable"},
+    {"centre_rubber_diameter", &NeckParameters::centre_rubber_diameter, false,
+     "diameter of rubber sections 2 and 3"},
     {"centre_rubber_offset", &NeckParameters::centre_rubber_offset, true,
-     "forward, of the axis of rubber 2 and 3"},
-    {"bottom_rubber_diameter", &NeckParameters::bottom_rubber_diameter, false, "of rubber 1"},
+     "forward offset of the axis of rubber sections 2 and 3"},
+    {"bottom_rubber_diameter", &NeckParameters::bottom_rubber_diameter, false,
+     "diameter of rubber section 1"},
     {"bottom_rubber_offset", &NeckParameters::bottom_rubber_offset, true,
-     "forward, of the axis of rubber 1"},
-    {"top_rubber_diameter", &NeckParameters::top_rubber_diameter, false, "of rubber 4"},
+     "forward offset of the axis of rubber section 1"},
+    {"top_rubber_diameter", &NeckParameters::top_rubber_diameter, false,
+     "diameter of rubber section 4"},
     {"top_rubber_offset", &NeckParameters::top_rubber_offset, true,
-     "forward, of the axis of rubber 4"},
+     "forward offset of the axis of rubber section 4"},
     {"bolt_circle_radius", &NeckParameters::bolt_circle_radius, false,
-     "bolts stand at 45, 135, 225 and 315 deg on it"},
+     "radius of the circle of bolts, which are at 45, 135, 225 and 315 deg"},
     {"bolt_patch_radius", &NeckParameters::bolt_patch_radius, false,
-     "base-face nodes this close to a bolt are fixed"},
+     "radius around each bolt within which nodes of the base face are fixed"},
 }};
 
 void check_range(const NeckDimension& dimension, double value_m) {
@@ -58,7 +62,7 @@ void check_range(const NeckDimension& dimension, double value_m) {
 void check_height(const NeckParameters& neck) {
   if (rubber_height(neck) > 0) return;
   refuse(
-      "the plates leave no height for the rubber: base_plate_thickness + 3 plate_thickness + " +
+      "no height remains for the rubber: base_plate_thickness + 3 plate_thickness + " +
       std::string("top_plate_thickness = ") +
       in_inches(neck.base_plate_thickness + 3 * neck.plate_thickness + neck.top_plate_thickness) +
       " must be less than length = " + in_inches(neck.length));
@@ -70,13 +74,13 @@ void check_rubber(const NeckParameters& neck, const std::string& section, double
   const double inner_m = neck.hole_diameter / 2 + offset;
   const double rim_m = diameter / 2 + offset;
   if (!(inner_m < diameter / 2)) {
-    refuse("the hole leaves the " + section + " rubber: hole_diameter / 2 + " + section +
+    refuse("the hole extends beyond the " + section + " rubber: hole_diameter / 2 + " + section +
            "_rubber_offset = " + in_inches(inner_m) + " must be less than " + section +
            "_rubber_diameter / 2 = " + in_inches(diameter / 2));
   }
   if (!(rim_m < neck.plate_diameter / 2)) {
-    refuse("the " + section + " rubber leaves the plates: " + section + "_rubber_diameter / 2 + " +
-           section + "_rubber_offset = " + in_inches(rim_m) +
+    refuse("the " + section + " rubber extends beyond the plates: " + section +
+           "_rubber_diameter / 2 + " + section + "_rubber_offset = " + in_inches(rim_m) +
            " must be less than plate_diameter / 2 = " + in_inches(neck.plate_diameter / 2));
   }
 }
@@ -85,12 +89,12 @@ void check_bolts(const NeckParameters& neck) {
   const double outer_m = neck.bolt_circle_radius + neck.bolt_patch_radius;
   const double inner_m = neck.bolt_circle_radius - neck.bolt_patch_radius;
   if (!(outer_m <= neck.plate_diameter / 2)) {
-    refuse("the bolts leave the base plate: bolt_circle_radius + bolt_patch_radius = " +
+    refuse("the bolts extend beyond the base plate: bolt_circle_radius + bolt_patch_radius = " +
            in_inches(outer_m) +
            " must not exceed plate_diameter / 2 = " + in_inches(neck.plate_diameter / 2));
   }
   if (!(inner_m >= neck.hole_diameter / 2)) {
-    refuse("the bolts reach into the hole: bolt_circle_radius - bolt_patch_radius = " +
+    refuse("the bolts extend into the hole: bolt_circle_radius - bolt_patch_radius = " +
            in_inches(inner_m) +
            " must not be less than hole_diameter / 2 = " + in_inches(neck.hole_diameter / 2));
   }

@@ -16,17 +16,17 @@ namespace {
 
 void check_depth(const NeckSlits& slits) {
   if (slits.state != SlitState::none && !slits.depth) {
-    refuse("slits need slit_depth, the share of the rubber from rim to hole that is cut: " +
-           std::string("0 < slit_depth < 1; the paper does not say how deep"));
+    refuse("slits need slit_depth, the fraction of the rubber between rim and hole that is cut: " +
+           std::string("0 < slit_depth < 1; the paper does not report it"));
   }
   if (slits.depth && !(*slits.depth > 0 && *slits.depth < 1)) {
-    refuse("slit_depth must lie between rim and hole: 0 < slit_depth < 1, found " +
+    refuse("slits must end between rim and hole: 0 < slit_depth < 1, found " +
            rounded_text(*slits.depth));
   }
 }
 
 void check_parts(const NeckSlits& slits) {
-  if (slits.parts.empty()) refuse("slit_parts names no rubber section");
+  if (slits.parts.empty()) refuse("expected at least one rubber section in slit_parts, found none");
   check_names(slits.parts, "slit part");
   for (const std::string& part : slits.parts) {
     find_name({"rubber_1", "rubber_2", "rubber_3", "rubber_4"}, part, "rubber section");
@@ -41,17 +41,20 @@ void check(const NeckSlits& slits, const NeckDivisions& divisions) {
   check_parts(slits);
   if (divisions.quadrant % 2 != 0) {
     refuse(
-        "slits end at -90 and 90 deg, where the mesh has a line only if quadrant is even, found " +
+        "slits end at -90 and 90 deg, where the mesh has a line only if quadrant is even; found "
+        "quadrant = " +
         std::to_string(divisions.quadrant));
   }
   if (divisions.inner_ring < 2) {
-    refuse("slits end on a circle of the mesh between hole and rim: inner_ring >= 2, found " +
-           std::to_string(divisions.inner_ring));
+    refuse(
+        "slits end on a circle of the mesh between hole and rim, which needs inner_ring >= 2; "
+        "found " +
+        std::to_string(divisions.inner_ring));
   }
   if (slits.state != SlitState::none && divisions.rubber_layers % 2 != 0) {
     refuse(
-        "slits lie at mid-height, where the mesh has a plane only if rubber_layers is even, "
-        "found " +
+        "slits lie at mid-height, where the mesh has a plane only if rubber_layers is even; found "
+        "rubber_layers = " +
         std::to_string(divisions.rubber_layers));
   }
 }

@@ -101,8 +101,7 @@ Raster draw_body(const Mesh& mesh, const Surface& surface, const BodyPicture& wh
       moves ? Eigen::MatrixX3d(nodes + what.displacement_m.transpose()) : nodes;
   const Eigen::MatrixX3d points = project(surface.value * moved);
   if (!points.allFinite() || !what.field.allFinite())
-    throw ComputationError(
-        "a picture of a body needs positions and values that are finite numbers");
+    throw ComputationError("a picture of a body needs finite positions and values");
   const std::vector<Colour> colours = vertex_colours(mesh, surface, what, moved, project.axes());
   for (const auto& triangle : surface.triangles) {
     std::array<ScreenPoint, 3> corners;

@@ -124,7 +124,8 @@ void require_success(cairo_status_t status, const std::filesystem::path& path) {
 }  // namespace
 
 void write_png(const std::filesystem::path& path, const PictureSheet& sheet) {
-  if (sheet.panels.empty()) throw ComputationError(path.string() + ": a sheet without pictures");
+  if (sheet.panels.empty())
+    throw ComputationError(path.string() + ": expected at least one picture, found none");
   const int rows = (static_cast<int>(sheet.panels.size()) + sheet.columns - 1) / sheet.columns;
   const Raster& first = sheet.panels.front().picture;
   const int width = 2 * kPadding + sheet.columns * first.width();

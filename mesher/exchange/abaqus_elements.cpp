@@ -31,8 +31,8 @@ std::string known_abaqus_types() {
 std::string abaqus_type_of(ElementKind kind, bool is_reduced) {
   const auto types = traits_of(kind).abaqus_types;
   if (types.empty())
-    throw InputError("an .inp has no element of kind " + std::string(name_of(kind)) +
-                     "; mesh with hex20, prism15 or tet10 instead");
+    throw InputError("an .inp file has no element of kind " + std::string(name_of(kind)) +
+                     "; use a mesh with hex20, prism15 or tet10");
   const std::string full(types.front());
   return is_reduced && has(types, full + "R") ? full + "R" : full;
 }

@@ -25,7 +25,7 @@ void add_box_sets(const std::vector<BoxSet>& boxes, Mesh& mesh) {
       return is_inside(mesh.nodes[static_cast<std::size_t>(node)], box);
     });
     if (faces.blocks.empty()) {
-      throw InputError("set '" + box.name + "': no face of the surface lies in its box");
+      throw InputError("set '" + box.name + "': no face of the surface lies in the box");
     }
     mesh.node_sets.push_back(nodes_of(faces));
     mesh.face_sets.push_back(std::move(faces));

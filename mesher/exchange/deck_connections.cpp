@@ -56,7 +56,7 @@ class Builder {
       if (sites_.axes_of(node) != nullptr &&
           coupling.directions != std::array<bool, 3>{true, true, true}) {
         throw InputError(coupling.name + " couples some directions of node " +
-                         std::to_string(node) + ", which has axes of its own");
+                         std::to_string(node) + ", which has its own coordinate axes");
       }
       if (sites_.is_of_solid(node)) {
         result.nodes.push_back(sites_.index_of(node));
@@ -64,7 +64,8 @@ class Builder {
         left_out_.add("nodes of no solid element in couplings");
       }
     }
-    if (result.nodes.empty()) throw InputError(coupling.name + " has no nodes that elements use");
+    if (result.nodes.empty())
+      throw InputError(coupling.name + " has no nodes that belong to elements");
     std::sort(result.nodes.begin(), result.nodes.end());
     result.nodes.erase(std::unique(result.nodes.begin(), result.nodes.end()), result.nodes.end());
     const std::optional<std::int32_t> known = sites_.point_of(coupling.reference);
@@ -102,7 +103,7 @@ class Builder {
       const auto ours = sites_.term_of(equation.name, term);
       if (!ours) {
         throw InputError(equation.name + " has a rotation of node " + std::to_string(term.node) +
-                         ", which solids do not give one");
+                         ", but nodes of solid elements have no rotations");
       }
       result.terms.push_back(*ours);
     }
@@ -170,7 +171,8 @@ class Builder {
       result.terms.push_back(weighted);
     }
     if (has_translation && has_rotation) {
-      throw InputError(spring.name + " joins a translation and a rotation, which is not supported");
+      throw InputError(spring.name +
+                       " connects a translation with a rotation, which is not supported");
     }
     result.stiffness *= has_rotation ? nodes_.force_unit_N * nodes_.length_unit_m
                                      : nodes_.force_unit_N / nodes_.length_unit_m;
@@ -182,7 +184,7 @@ class Builder {
     const std::int64_t two = spring.terms.at(1).node;
     const Eigen::Vector3d line =
         sites_.position_m(spring.name, two) - sites_.position_m(spring.name, one);
-    if (!(line.norm() > 0)) throw InputError(spring.name + " has its two nodes in the same place");
+    if (!(line.norm() > 0)) throw InputError(spring.name + " has two coincident nodes");
     const Eigen::Vector3d along = line.normalized();
     connections().springs.push_back(
         {spring.name,
@@ -219,8 +221,8 @@ class Builder {
         if (node == coupling.reference || node == coupling.rotation) continue;
         if (!sites_.is_point(node)) continue;
         throw InputError(coupling.name + " has node " + std::to_string(node) +
-                         ", which no element uses, but another coupling, equation, spring or mass; "
-                         "couple nodes of elements instead");
+                         ", which belongs to no element, but to another coupling, equation, spring "
+                         "or mass; use nodes of elements instead");
       }
     }
   }

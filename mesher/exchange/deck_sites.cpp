@@ -50,9 +50,10 @@ DeckSites::DeckSites(const DeckConnections& deck, const DeckNodes& nodes, Mesh& 
       static_cast<void>(axes.at(position_m("", node)));
     } catch (const InputError&) {
       if (radial.count(node) > 0) {
-        throw InputError("node " + std::to_string(node) +
-                         " lies on the axis of its cylindrical axes, where radial and tangential "
-                         "directions are none; give it other axes, or hold it in both");
+        throw InputError(
+            "node " + std::to_string(node) +
+            " lies on the axis of its cylindrical coordinate system, where the radial and "
+            "tangential directions are undefined; use another system, or fix both directions");
       }
       axes.is_cylindrical = false;  // both or neither direction is fixed: any pair of axes will do
     }
@@ -62,7 +63,8 @@ DeckSites::DeckSites(const DeckConnections& deck, const DeckNodes& nodes, Mesh& 
 Eigen::Vector3d DeckSites::position_m(const std::string& who, std::int64_t node) const {
   const auto found = nodes_.positions.find(node);
   if (found == nodes_.positions.end()) {
-    throw InputError(who + " has node " + std::to_string(node) + ", which the file does not give");
+    throw InputError(who + " has node " + std::to_string(node) +
+                     ", which the file does not define");
   }
   return nodes_.length_unit_m * Eigen::Vector3d(found->second.data());
 }

@@ -38,14 +38,14 @@ std::string msh_section_problem(TextLines lines) {
     }
     if (text.empty()) continue;
     if (text.front() != '$' || text.starts_with("$End")) {
-      return at + " lies in no section: " + shown(text);
+      return at + " is outside all sections: " + shown(text);
     }
     open = text.substr(1);
     has_nodes = has_nodes || open == "Nodes" || open == "ParametricNodes";
     has_elements = has_elements || open == "Elements";
   }
-  if (!open.empty()) return "section $" + open + " has no end: the file is truncated";
-  if (!has_nodes || !has_elements) return "it has no $Nodes or no $Elements";
+  if (!open.empty()) return "section $" + open + " has no end; the file is truncated";
+  if (!has_nodes || !has_elements) return "expected $Nodes and $Elements, found only one or none";
   return {};
 }
 
@@ -53,7 +53,7 @@ std::string msh_section_problem(TextLines lines) {
 /// this machine writes it.
 std::string msh_binary_problem(std::string_view contents) {
   constexpr std::string_view kOne("\1\0\0\0", 4);
-  if (!contents.starts_with(kOne)) return "its bytes are in another order";
+  if (!contents.starts_with(kOne)) return "its byte order is that of another machine";
   TextLines lines(contents.substr(kOne.size()));
   lines.next();  // rest of the line
   if (!trimmed(lines.next().value_or("")).starts_with("$End")) {
@@ -64,7 +64,7 @@ std::string msh_binary_problem(std::string_view contents) {
   for (const std::string& name :
        {"$" + nodes, "$End" + nodes, std::string("$Elements"), std::string("$EndElements")}) {
     if (contents.find(name) == std::string_view::npos) {
-      return "it has no " + name + ": the file is truncated, or no mesh";
+      return "there is no " + name + "; the file is truncated, or contains no mesh";
     }
   }
   return {};
@@ -88,7 +88,7 @@ std::string msh_problem(std::string_view contents) {
   if (kind != "0 8" && kind != "0 4") {
     return "expected a file type of 0 or 1 and a data size of 8, found " + shown(header);
   }
-  if (!is_text(contents)) return "it says that it is text, and is not";
+  if (!is_text(contents)) return "its header says text, but its content is binary";
   return msh_section_problem(TextLines(contents));
 }
 
@@ -97,7 +97,7 @@ std::string unv_problem(std::string_view contents) {
   TextLines lines(contents);
   const std::string_view first = lines.next().value_or("");
   if (!is_text(contents) || trimmed(first) != "-1") {
-    return "expected a line -1 first, found " + shown(first);
+    return "expected -1 in the first line, found " + shown(first);
   }
   const std::string_view number = trimmed(lines.next().value_or(""));
   int data_set = 0;
@@ -110,7 +110,7 @@ std::string unv_problem(std::string_view contents) {
 
 /// Checks cards in free or fixed fields; comments and case control may come first.
 std::string bdf_problem(std::string_view contents) {
-  if (!is_text(contents)) return "it is no text";
+  if (!is_text(contents)) return "it is not a text file";
   bool has_grid = false;
   bool has_element = false;
   TextLines lines(contents);
@@ -121,8 +121,8 @@ std::string bdf_problem(std::string_view contents) {
       has_element = has_element || name.starts_with(card);
     }
   }
-  if (!has_grid) return "it has no GRID card, begins " + shown(contents);
-  if (!has_element) return "it has no card CHEXA, CPENTA or CTETRA";
+  if (!has_grid) return "expected a GRID card, found none; it begins with " + shown(contents);
+  if (!has_element) return "expected a CHEXA, CPENTA or CTETRA card, found none";
   return {};
 }
 
@@ -144,7 +144,7 @@ std::string brep_problem(std::string_view contents) {
 
 /// Checks lines of keywords and data; the first line that is no comment is a keyword.
 std::string inp_problem(std::string_view contents) {
-  if (!is_text(contents)) return "it is no text";
+  if (!is_text(contents)) return "it is not a text file";
   TextLines lines(contents);
   while (const auto line = lines.next()) {
     const std::string_view text = trimmed(*line);
@@ -175,7 +175,7 @@ std::string signature_problem(ForeignFormat format, std::string_view contents) {
     case ForeignFormat::brep:
       return brep_problem(contents);
   }
-  return "it is of no known format";
+  return "its format is unknown";
 }
 
 }  // namespace flexneck::mesher

@@ -44,12 +44,12 @@ const FormatRecord& record_of(const fs::path& file) {
   if (found != kFormats.end()) return *found;
   if (ending == ".geo") {
     throw InputError(file.string() +
-                     ": a .geo file is a script, that is a program; if you trust it, name it with "
-                     "the key script");
+                     ": a .geo file is a gmsh script, that is, a program; if you trust it, use the "
+                     "key script instead of file");
   }
   std::string known;
   for (const FormatRecord& record : kFormats) known += " " + std::string(record.ending);
-  throw InputError(file.string() + ": expected a file with one of the endings" + known);
+  throw InputError(file.string() + ": expected a file with one of the extensions" + known);
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ std::string checked_contents(const fs::path& file) {
   std::string contents = without_mark(text_of_file(file));
   const std::string problem = signature_problem(format, contents);
   if (!problem.empty()) {
-    throw InputError(file.string() + ": this is no " + file.extension().string() +
+    throw InputError(file.string() + ": not a valid " + file.extension().string() +
                      " file: " + problem);
   }
   return contents;

@@ -52,12 +52,13 @@ void refuse_doubled_elements(const Mesh& mesh) {
     std::sort(sorted.begin(), sorted.end());
     if (seen.insert(std::move(sorted)).second) return;
     if (doubles++ == 0) {
-      first = "part '" + block.part + "' round " + place(centre_of(mesh, nodes));
+      first = "part '" + block.part + "' near " + place(centre_of(mesh, nodes));
     }
   });
   if (doubles == 0) return;
-  throw InputError(std::to_string(doubles) + " elements lie on the nodes of others, the first in " +
-                   first + "; remove the copies");
+  throw InputError(std::to_string(doubles) +
+                   " elements have the same nodes as others, the first in " + first +
+                   "; remove the duplicates");
 }
 
 /// Nodes at the position of another with a smaller index, ascending. Nodes are sorted along a
@@ -88,10 +89,10 @@ void refuse_doubled_nodes(const Mesh& mesh) {
   const std::vector<std::int32_t> doubles = doubled_nodes(mesh);
   if (doubles.empty()) return;
   const Point& first = mesh.nodes[static_cast<std::size_t>(doubles.front())];
-  throw InputError(std::to_string(doubles.size()) +
-                   " nodes lie in the place of others, the first at " + place(first) +
-                   ": the parts do not hold together there, or lie twice; merge the "
-                   "nodes, or say coincident_nodes = \"keep\" if a gap is meant");
+  throw InputError(std::to_string(doubles.size()) + " nodes coincide with others, the first at " +
+                   place(first) +
+                   ": the parts are not connected there, or are duplicated; merge the nodes, or "
+                   "set coincident_nodes = \"keep\" if a gap is intended");
 }
 
 /// Joins the nodes that couplings, equations and springs connect.
@@ -123,12 +124,12 @@ void refuse_unconnected(const Mesh& mesh) {
   std::string second;
   for_each_element(mesh, [&](const ElementBlock& block, std::span<const std::int32_t> nodes) {
     if (!roots.insert(pieces.root(member(nodes.front()))).second || roots.size() != 2) return;
-    second = "part '" + block.part + "' round " + place(centre_of(mesh, nodes));
+    second = "part '" + block.part + "' near " + place(centre_of(mesh, nodes));
   });
   if (roots.size() < 2) return;
-  throw InputError("the mesh falls apart into " + std::to_string(roots.size()) +
-                   " pieces that share no node, the second with " + second +
-                   "; join them, or take a mesh of one piece");
+  throw InputError("the mesh consists of " + std::to_string(roots.size()) +
+                   " unconnected pieces, the second with " + second +
+                   "; connect them, or use a mesh of a single piece");
 }
 
 void refuse_inverted(const Mesh& mesh) {
@@ -144,9 +145,9 @@ void refuse_inverted(const Mesh& mesh) {
     throw InputError(
         "part '" + block.part + "': " + std::to_string(count) + " of " +
         std::to_string(block.size()) + " elements (" + std::string(name_of(block.kind)) +
-        ") are inverted or degenerate, the worst round " + place(worst) +
+        ") are inverted or degenerate, the worst near " + place(worst) +
         (count == block.size()
-             ? "; all are: the mesh is a mirror image, or its nodes are in another order"
+             ? "; since all are, the mesh is mirrored, or its nodes are in another order"
              : "; repair the mesh"));
   }
 }

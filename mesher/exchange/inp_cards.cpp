@@ -84,7 +84,8 @@ class Reader {
         cards.back().data.push_back({place, fields_of(line), line.back() == ','});
       }
     }
-    if (!open_keyword.empty()) throw InputError(open_place.text() + "the keyword line has no end");
+    if (!open_keyword.empty())
+      throw InputError(open_place.text() + "the keyword line continues past the end of the file");
   }
 
   std::vector<InpCard> cards;
@@ -94,8 +95,9 @@ class Reader {
     if (card.keyword == "INCLUDE") {
       include(card);
     } else if (card.has("INPUT")) {
-      card.refuse("INPUT= is not supported; put the file's lines here, or write *INCLUDE, INPUT=" +
-                  card.parameters.at("INPUT") + " behind the keyword line");
+      card.refuse(
+          "INPUT= is not supported; insert the lines of the file here, or write *INCLUDE, INPUT=" +
+          card.parameters.at("INPUT") + " after the keyword line");
     } else {
       cards.push_back(std::move(card));
     }

@@ -72,7 +72,7 @@ void InpConnectionReader::read(const InpCard& card, const InpModel& model) {
 
 void InpConnectionReader::boundary(const InpCard& card, const InpModel& model) {
   if (card.has("OP") && upper_case(card.parameter("OP")) == "NEW" && !supports_.empty()) {
-    card.refuse("OP=NEW lets go what was fixed before; give one *BOUNDARY for the modes");
+    card.refuse("OP=NEW removes the supports defined before; use a single *BOUNDARY for the modes");
   }
   constexpr std::int64_t kLast = 6;  // higher components are temperatures and the like
   for (const InpData& line : card.data) {
@@ -129,7 +129,7 @@ void InpConnectionReader::mpc(const InpCard& card, const InpModel& model) {
     for (const std::int64_t node : {one, two}) {
       if (model.nodes.count(node) > 0) continue;
       throw InputError(line.place.text() + "*MPC has node " + std::to_string(node) +
-                       ", which *NODE does not give");
+                       ", which *NODE does not define");
     }
     const std::string name = "*MPC" + line_of(line.place);
     if (is_same) {
@@ -142,7 +142,7 @@ void InpConnectionReader::mpc(const InpCard& card, const InpModel& model) {
     const Eigen::Vector3d along =
         Eigen::Vector3d(model.nodes.at(one).data()) - Eigen::Vector3d(model.nodes.at(two).data());
     if (!(along.norm() > 0)) {
-      throw InputError(line.place.text() + "*MPC: its two nodes lie in the same place");
+      throw InputError(line.place.text() + "*MPC: the two nodes coincide");
     }
     Eigen::Index largest = 0;
     along.cwiseAbs().maxCoeff(&largest);
@@ -168,7 +168,8 @@ void InpConnectionReader::rigid_body(const InpCard& card, const InpModel& model)
                        card.has("ELSET") ? card.parameter("ELSET") : "", card.parameter("REF NODE"),
                        card.has("ROT NODE") ? card.parameter("ROT NODE") : "0"},
                       false};
-  if (card.has("NSET") == card.has("ELSET")) card.refuse("expected NSET= or ELSET=, one of them");
+  if (card.has("NSET") == card.has("ELSET"))
+    card.refuse("expected exactly one of NSET= and ELSET=");
   coupling.reference = inp_integer(names, 2);
   coupling.rotation = inp_integer(names, 3);
   if (card.has("NSET")) {

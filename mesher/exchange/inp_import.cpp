@@ -66,7 +66,7 @@ void assign_parts_of_file(const InpModel& model, Assignment& all) {
       const auto [entry, is_new] = all.part_of.emplace(element, part);
       if (!is_new && entry->second >= of_study) {
         throw InputError(section.place.text() + "*SOLID SECTION: element " +
-                         std::to_string(element) + " has a section already, '" +
+                         std::to_string(element) + " already has a section, '" +
                          all.parts[entry->second].name + "'");
       }
       is_used = is_used || is_new;
@@ -89,8 +89,8 @@ void require_all_assigned(const InpModel& model, const Assignment& all) {
   }
   throw InputError(std::to_string(count) + " elements belong to no part, the first is element " +
                    std::to_string(first) +
-                   ": list ELSETs under a material's parts, or give them a "
-                   "*SOLID SECTION; there are the ELSETs " +
+                   "; add ELSETs to the parts of a material, or give them a *SOLID SECTION; ELSETs "
+                   "of the file: " +
                    (sets.empty() ? "none" : sets));
 }
 
@@ -117,7 +117,8 @@ std::size_t material_index(const std::string& name, bool is_of_study, const InpM
       model.materials.begin(), model.materials.end(),
       [&](const InpMaterial& each) { return upper_case(each.name) == upper_case(name); });
   if (found == model.materials.end()) {
-    throw InputError("*SOLID SECTION names a material '" + name + "' that the file has not" +
+    throw InputError("*SOLID SECTION uses the material '" + name +
+                     "', which the file does not define" +
                      did_you_mean(names_of(model.materials), name));
   }
   const std::vector<std::string> known = names_of(mesh.materials);
@@ -134,7 +135,7 @@ std::map<std::int64_t, std::int32_t> number_nodes(const InpModel& model) {
     for (const std::int64_t node : element.nodes) {
       if (model.nodes.count(node) == 0) {
         throw InputError("element " + std::to_string(element.number) + " has node " +
-                         std::to_string(node) + ", which *NODE does not give");
+                         std::to_string(node) + ", which *NODE does not define");
       }
       index_of[node] = 0;
     }
@@ -206,7 +207,7 @@ FaceBlock face_of(const InpElement& element, std::size_t side,
                   const std::map<std::int64_t, std::int32_t>& index_of) {
   const auto abaqus = abaqus_facets(element.kind);
   if (side >= abaqus.size()) {
-    throw InputError("element " + std::to_string(element.number) + " has no side S" +
+    throw InputError("element " + std::to_string(element.number) + " has no face S" +
                      std::to_string(side + 1));
   }
   const std::vector<std::size_t>& corners = abaqus[side];
@@ -222,7 +223,8 @@ FaceBlock face_of(const InpElement& element, std::size_t side,
     }
     return face;
   }
-  throw ComputationError("a side of an element has no counterpart");  // an error in the tables
+  throw ComputationError(
+      "a face of an element has no counterpart in the mesh");  // an error in the tables
 }
 
 /// Adds the SURFACEs as face sets. A surface replaces the face set made from an NSET of its name.
@@ -273,7 +275,8 @@ void add_surfaces(const InpModel& model, const std::map<std::int64_t, std::int32
 void add_integration(const InpModel& model, const ImportOptions& options, LeftOut& left_out) {
   for (const auto& [type, count] : model.types) {
     const bool is_ours = type == "C3D20R" ? options.is_reduced : type != "C3D8I" && type != "C3D8R";
-    if (!is_ours) left_out.add("integrations of " + type + " (modes.formulation decides)", count);
+    if (!is_ours)
+      left_out.add("integration rules of " + type + " (determined by modes.formulation)", count);
   }
 }
 
@@ -322,7 +325,7 @@ Mesh import_inp(const ImportOptions& options, const Progress& progress, LeftOut&
   if (progress && !model.ignored.empty()) {
     std::string keywords;
     for (const std::string& keyword : model.ignored) keywords += " *" + keyword;
-    progress("passed over in " + options.file.filename().string() + ":" + keywords);
+    progress("ignored in " + options.file.filename().string() + ":" + keywords);
   }
   left_out = model.left_out;
   add_integration(model, options, left_out);

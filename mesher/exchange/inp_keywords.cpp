@@ -112,7 +112,7 @@ void check_parameters(const InpCard& card, const InpKeyword& keyword) {
       std::vector<std::string> known;
       for (const InpParameter& each : keyword.parameters) known.push_back(each.name);
       card.refuse("the parameter " + name +
-                  " is not supported, and it may change the structure; write the deck without it" +
+                  " is not supported and may change the structure; remove it" +
                   did_you_mean(known, name));
     }
     const auto& values = row->values;

@@ -22,8 +22,8 @@ class ModelReader {
     if (card.keyword == "FREQUENCY") frequencies_ = "line " + std::to_string(card.place.line);
     if (card.keyword == "STEP" && !frequencies_.empty()) is_behind_frequencies_ = true;
     if (is_behind_frequencies_ && card.keyword == "BOUNDARY") {
-      card.refuse("it belongs to a step behind *FREQUENCY in " + frequencies_ +
-                  ", whose modes are without it; take that step away");
+      card.refuse("it belongs to a step after the *FREQUENCY in " + frequencies_ +
+                  ", whose modes do not include it; remove that step");
     }
     const auto row = inp_keywords().find(card.keyword);
     if (row == inp_keywords().end() || row->second.use == InpUse::assembly) refuse_keyword(card);
@@ -45,7 +45,8 @@ class ModelReader {
     refuse_other_types(file);
     check_members(model_.nsets, "NSET", "node", model_.nodes);
     check_members(model_.elsets, "ELSET", "element", element_numbers_);
-    if (model_.elements.empty()) throw InputError(file.string() + ": it has no *ELEMENT");
+    if (model_.elements.empty())
+      throw InputError(file.string() + ": expected at least one *ELEMENT, found none");
     std::sort(model_.elements.begin(), model_.elements.end(),
               [](const InpElement& a, const InpElement& b) { return a.number < b.number; });
     collect_connections();
@@ -72,13 +73,13 @@ class ModelReader {
   void solid_section(const InpCard& card);
 
   InpMaterial& material_of(const InpCard& card) {
-    if (model_.materials.empty()) card.refuse("it stands under no *MATERIAL");
+    if (model_.materials.empty()) card.refuse("expected it after *MATERIAL");
     return model_.materials.back();
   }
   static const InpData& only_line_of(const InpCard& card) {
     if (card.data.size() != 1) {
       card.refuse("expected one line of data, found " + std::to_string(card.data.size()) +
-                  ": figures that depend on temperature are not supported");
+                  "; temperature-dependent values are not supported");
     }
     return card.data.front();
   }
@@ -130,12 +131,12 @@ void ModelReader::notice_preload(const InpCard& card) {
 void ModelReader::refuse_keyword(const InpCard& card) {
   if (inp_keywords().count(card.keyword) > 0) {
     card.refuse(
-        "parts and instances are not supported; write a flat input, in Abaqus/CAE with "
+        "parts and instances are not supported; write a flat input file, in Abaqus/CAE with "
         "mdb.models['…'].setValues(noPartsInputFile=ON)");
   }
   std::vector<std::string> known;
   for (const auto& [keyword, row] : inp_keywords()) known.push_back(keyword);
-  card.refuse("this keyword is not known here, and it may change the structure; remove it" +
+  card.refuse("the keyword is unknown and may change the structure; remove it" +
               did_you_mean(known, card.keyword));
 }
 
@@ -150,7 +151,7 @@ void ModelReader::nodes(const InpCard& card) {
     const auto [entry, is_new] = model_.nodes.emplace(numbers.back(), x);
     if (!is_new && entry->second != x) {
       throw InputError(line.place.text() + "node " + std::to_string(numbers.back()) +
-                       " comes twice, in different places");
+                       " is defined twice, at different positions");
     }
   }
   if (card.has("NSET")) add_to_inp_set(model_.nsets, card.parameter("NSET"), numbers);
@@ -193,7 +194,8 @@ void ModelReader::elements(const InpCard& card) {
     InpElement element{row.front(), *kind, std::vector<std::int64_t>(order.size())};
     for (std::size_t k = 0; k < order.size(); ++k) element.nodes[order[k]] = row[k + 1];
     if (!element_numbers_.insert(element.number).second) {
-      throw InputError(place.text() + "element " + std::to_string(element.number) + " comes twice");
+      throw InputError(place.text() + "element " + std::to_string(element.number) +
+                       " is defined twice");
     }
     ++model_.types[type];
     numbers.push_back(element.number);
@@ -211,7 +213,7 @@ void ModelReader::surface(const InpCard& card) {
   for (const InpData& line : card.data) {
     const std::string side = line.fields.size() > 1 ? upper_case(line.fields[1]) : "";
     if (side.size() != 2 || side[0] != 'S' || side[1] < '1' || side[1] > '6') {
-      throw InputError(line.place.text() + "expected an element or ELSET and its side S1 … S6");
+      throw InputError(line.place.text() + "expected an element or ELSET and its face S1 … S6");
     }
     for (const std::int64_t element : inp_members_of(line, 0, model_.elsets, "ELSET")) {
       surface.sides.push_back({element, static_cast<std::size_t>(side[1] - '1')});
@@ -266,7 +268,7 @@ void ModelReader::collect_connections() {
   for (const std::int64_t node : connections_.supported_by_number()) {
     if (model_.nodes.count(node) > 0) continue;
     throw InputError("*BOUNDARY fixes node " + std::to_string(node) +
-                     ", which *NODE does not give");
+                     ", which *NODE does not define");
   }
   model_.connections = connections_.finish(model_);
   for (const DeckSupport& support : model_.connections.supports) {
@@ -276,8 +278,9 @@ void ModelReader::collect_connections() {
   const auto named = model_.nsets.find("BOUNDARY");
   if (named != model_.nsets.end() && !model_.fixed.empty() &&
       named->second.members != model_.fixed) {
-    throw InputError("the NSET '" + named->second.name +
-                     "' has other nodes than *BOUNDARY, which gives a set of that name; rename it");
+    throw InputError(
+        "the NSET '" + named->second.name +
+        "' has other nodes than the set of this name that is made from *BOUNDARY; rename it");
   }
 }
 

@@ -70,10 +70,10 @@ void InpPointElements::add_springs(const InpCard& card, DeckConnections& connect
     const std::size_t lines = spring.is_along_nodes ? 1 : 2;  // without its blank line, which is
                                                               // not stored
     if (card.data.size() != lines) {
-      card.refuse("expected its degrees of freedom and one line with the stiffness");
+      card.refuse("expected a line with the degrees of freedom and a line with the stiffness");
     }
     if (card.data.back().fields.size() > 1 && inp_number(card.data.back(), 1) != 0) {
-      card.refuse("only one stiffness is supported");
+      card.refuse("only a single stiffness is supported");
     }
     spring.stiffness = inp_number(card.data.back(), 0);
     for (std::size_t k = 0; k < element.nodes.size(); ++k) {
@@ -94,11 +94,11 @@ void InpPointElements::add_to(DeckConnections& connections) const {
     if (std::none_of(elements_.begin(), elements_.end(), [&](const Element& element) {
           return element.set == set && (element.type == "MASS") == (card.keyword == "MASS");
         })) {
-      card.refuse("there are no such elements in ELSET '" + card.parameter("ELSET") +
-                  "'; give them by ELSET= of their *ELEMENT");
+      card.refuse("there are no elements of this type in ELSET '" + card.parameter("ELSET") +
+                  "'; add ELSET= to their *ELEMENT");
     }
     if (!given.insert(card.keyword + set).second) {
-      card.refuse("ELSET '" + card.parameter("ELSET") + "' has one already");
+      card.refuse("ELSET '" + card.parameter("ELSET") + "' already has this property");
     }
     card.keyword == "MASS" ? add_masses(card, connections) : add_springs(card, connections);
   }
@@ -106,7 +106,7 @@ void InpPointElements::add_to(DeckConnections& connections) const {
     const std::string keyword = element.type == "MASS" ? "MASS" : "SPRING";
     if (given.count(keyword + element.set) > 0) continue;
     throw InputError(element.type + " element " + std::to_string(element.number) + " has no *" +
-                     keyword + " of its ELSET");
+                     keyword + " for its ELSET");
   }
 }
 

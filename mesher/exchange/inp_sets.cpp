@@ -19,7 +19,8 @@ std::vector<std::int64_t> range_of(const InpData& line) {
   const std::int64_t step = line.fields.size() > 2 ? inp_integer(line, 2) : 1;
   constexpr auto kMost = static_cast<std::int64_t>(kMaxOfRanges);
   if (step < 1 || last < first || (last - first) / step > kMost) {
-    throw InputError(line.place.text() + "expected first, last and step of a range");
+    throw InputError(line.place.text() +
+                     "expected the first number, the last number and the increment of a range");
   }
   std::vector<std::int64_t> range;
   for (std::int64_t number = first; number <= last; number += step) range.push_back(number);

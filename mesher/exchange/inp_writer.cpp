@@ -32,12 +32,12 @@ void check_inp_names(const std::vector<std::string>& names, const std::string& k
                             return is_letter_or_digit(c) || c == '_' || c == '-' || c == '.';
                           });
     if (!is_plain) {
-      throw InputError("an .inp cannot hold the " + kind + " '" + name +
-                       "': expected letters, digits, _, - and ., a letter first, at most 80");
+      throw InputError("an .inp file cannot contain the " + kind + " '" + name +
+                       "'; expected at most 80 letters, digits, _, - and ., the first a letter");
     }
     if (!seen.insert(upper_case(name)).second) {
-      throw InputError("an .inp cannot tell the " + kind + " '" + name +
-                       "' from another that differs in case only");
+      throw InputError("an .inp file does not distinguish the " + kind + " '" + name +
+                       "' from another one that differs only in case");
     }
   }
 }
@@ -122,7 +122,7 @@ void write_surfaces(OutputFile& out, const Mesh& mesh) {
         const auto nodes = std::span(block.nodes).subspan(first, n);
         const auto found = names.find(key_of_face(block.kind, nodes));
         if (found == names.end()) {
-          throw InputError("a face of set '" + set.name + "' bounds no element");
+          throw InputError("a face of set '" + set.name + "' belongs to no element");
         }
         out.write(found->second);
       }
@@ -191,8 +191,8 @@ void check_connections(Connections connections) {
                 [](const Support& support) { return support.axes.is_global(); });
   if (connections.empty()) return;
   throw InputError(
-      "an .inp is not written with " + connections.text() +
-      ": of such connections only supports along x, y and z are; leave the others out");
+      "an .inp file cannot be written with " + connections.text() +
+      "; of connections, only supports along x, y and z are supported; remove the others");
 }
 
 /// Writes "node,direction[,direction],value" for the values that are not zero.

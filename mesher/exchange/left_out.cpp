@@ -22,7 +22,8 @@ void LeftOut::require_named(const std::vector<std::string>& named) {
       std::vector<std::string> known;
       for (const auto& [kind, all] : of_structure_) known.push_back(kind);
       throw InputError("geometry.leave_out names '" + name +
-                       "', but nothing of that kind is left out" + did_you_mean(known, name));
+                       "', but the file has no unsupported cards of that kind" +
+                       did_you_mean(known, name));
     }
     add(name, found->second.count);
     of_structure_.erase(found);
@@ -33,8 +34,8 @@ void LeftOut::require_named(const std::vector<std::string>& named) {
     text += (text.empty() ? "" : ", ") + std::to_string(all.count) + " " + kind + " (first in " +
             all.first + ")";
   }
-  throw InputError("not supported, and the structure would be another one without them: " + text +
-                   "; take them out, or name their kinds in geometry.leave_out");
+  throw InputError("the file has unsupported cards that change the structure: " + text +
+                   "; remove them, or list their kinds in geometry.leave_out to ignore them");
 }
 
 std::string LeftOut::text() const {

@@ -119,14 +119,14 @@ std::vector<Entity> entities_of(const Mesh& mesh) {
 void check_expressible(const Mesh& mesh, const std::vector<Entity>& entities) {
   for (const Entity& entity : entities) {
     if (entity.name.find_first_of("\"\r\n") != std::string::npos) {
-      throw InputError("the name '" + entity.name + "' cannot stand in a .msh file");
+      throw InputError("the name '" + entity.name + "' is not allowed in a .msh file");
     }
   }
   for (const Slit& slit : mesh.slits) {
     if (slit.tied) {
       throw InputError("slit '" + slit.name +
-                       "' is tied, which a .msh cannot say; mesh without slits instead, that has "
-                       "the same modes");
+                       "' is tied, which a .msh file cannot express; mesh without slits instead, "
+                       "which gives the same modes");
     }
   }
 }

@@ -76,9 +76,9 @@ void read_free(std::string_view text, BulkLine& line) {
     const bool is_mark = first == '+' || first == '*' || is_letter(first);
     if (all.size() > count + 2 || !is_mark) {
       refuse_line(line.number, line.head + ": expected at most " + std::to_string(count) +
-                                   " free fields in a line and the mark of the next, found " +
+                                   " free fields per line and a continuation mark, found " +
                                    std::to_string(all.size() - 1) +
-                                   "; continue the card in a line of its own");
+                                   "; write the rest of the card in a continuation line");
     }
     set_mark(last, line);
   }
@@ -154,7 +154,7 @@ NastranCard card_from(const std::vector<BulkLine>& lines, std::size_t first) {
     card.has_tabs = card.has_tabs || line.has_tabs;
     if (line.needs_more && !line.next) {
       refuse_line(line.number,
-                  card.name + ": the line that continues it, '+" + line.mark + "', is not there");
+                  card.name + ": expected a continuation line '+" + line.mark + "', found none");
     }
   }
   return card;
@@ -185,8 +185,9 @@ std::vector<NastranCard> read_nastran_cards(std::string_view text) {
   }
   const auto lost = std::find(is_read.begin(), is_read.end(), false);
   if (lost != is_read.end()) {
-    refuse_line(lines[static_cast<std::size_t>(lost - is_read.begin())].number,
-                "continues no card: the marks of the continuations go round in a ring");
+    refuse_line(
+        lines[static_cast<std::size_t>(lost - is_read.begin())].number,
+        "the continuation line belongs to no card, since the continuation marks form a cycle");
   }
   return cards;
 }

@@ -40,9 +40,9 @@ class CaseReader {
       throw InputError("line " + std::to_string(number) + ": " + problem);
     };
     const auto [word, value] = command_of(line);
-    if (word == "INCLUDE") refuse("INCLUDE: other files are not followed; write one file");
+    if (word == "INCLUDE") refuse("INCLUDE is not supported; write the deck as a single file");
     if (word == "K2GG" || word == "M2GG" || word == "K2PP" || word == "M2PP") {
-      refuse(word + ": matrices of the case control are not supported");
+      refuse(word + ": matrices selected in case control are not supported");
     }
     if (word.starts_with("SUBC")) cases_.push_back({value, above_});
     if (word.starts_with("STATSUB")) {
@@ -68,7 +68,7 @@ class CaseReader {
         if (one == two) continue;
         throw InputError("SUBCASE " + cases_.front().name + " has " + word + " = " + set_text(one) +
                          ", SUBCASE " + other.name + " has " + word + " = " + set_text(two) +
-                         ": there are modes for each; keep one of the subcases");
+                         "; each has its own modes; keep only one of the subcases");
       }
     }
     return control;

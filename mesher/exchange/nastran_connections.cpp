@@ -79,8 +79,8 @@ class ConnectionReader {
       chosen = there;
     }
     if (chosen.size() > 1) {
-      throw InputError("it has several sets of " + kind +
-                       " and no case control; select one, as in " + kind + " = " +
+      throw InputError("the deck has several sets of " + kind +
+                       " and no case control; select one, for example with " + kind + " = " +
                        std::to_string(*chosen.begin()) + " before BEGIN BULK");
     }
     if (chosen.empty()) return chosen;
@@ -137,7 +137,8 @@ class ConnectionReader {
     const NastranCard& card = found->second;
     const bool by_grids = card.name == "CORD1R" || card.name == "CORD1C";
     if (!by_grids && card.name != "CORD2R" && card.name != "CORD2C") {
-      refuse_card(card, "supports and the like in such a coordinate system are not supported");
+      refuse_card(card,
+                  "supports and couplings in this type of coordinate system are not supported");
     }
     std::array<Eigen::Vector3d, 3> points;
     if (by_grids) {
@@ -145,8 +146,8 @@ class ConnectionReader {
     } else {
       if (nastran_integer_or(card, 1, 0) != 0) {
         refuse_card(card,
-                    "a coordinate system in another one is not supported; write it in the basic "
-                    "system");
+                    "a coordinate system defined in another one is not supported; define it in the "
+                    "basic system");
       }
       for (std::size_t k = 0; k < 3; ++k) {
         points[k] = {nastran_number(card, 3 * k + 2), nastran_number(card, 3 * k + 3),
@@ -197,7 +198,7 @@ class ConnectionReader {
                                   nastran_number(card, first + 2)});
       }
     }
-    if (equation.terms.empty()) refuse_card(card, "it has no terms");
+    if (equation.terms.empty()) refuse_card(card, "expected at least one term, found none");
     deck_.equations.push_back(std::move(equation));
   }
 
@@ -252,7 +253,7 @@ class ConnectionReader {
       spring.terms.push_back({nastran_integer(card, end), nastran_component(card, end + 1),
                               spring.terms.empty() ? 1.0 : -1.0});
     }
-    if (spring.terms.empty()) refuse_card(card, "it joins no nodes");
+    if (spring.terms.empty()) refuse_card(card, "expected a node, found none");
     deck_.springs.push_back(std::move(spring));
   }
 

@@ -142,10 +142,10 @@ class ModelReader {
  private:
   static void refuse_unreadable(const NastranCard& card) {
     if (card.name == "INCLUDE") {
-      refuse_card(card, "other files are not followed; write the deck as one file");
+      refuse_card(card, "including other files is not supported; write the deck as a single file");
     }
     if (card.name.starts_with("=")) refuse_card(card, "replicated cards are not supported");
-    if (!is_name(card.name)) refuse_card(card, "this is no card of bulk data");
+    if (!is_name(card.name)) refuse_card(card, "not a bulk data card");
     if (card.has_tabs && !is_among(kSilent, card.name) && !is_among(kLoads, card.name)) {
       refuse_tabs(card);
     }
@@ -155,7 +155,7 @@ class ModelReader {
     }
   }
   [[noreturn]] static void refuse_tabs(const NastranCard& card) {
-    refuse_card(card, "tabs between fixed fields are not supported; take blanks or commas");
+    refuse_card(card, "tabs between fixed fields are not supported; use blanks or commas");
   }
 
   /// Adds a node. Fields: number, CP, three coordinates, CD, PS. GRDSET gives the defaults of CP,
@@ -182,8 +182,9 @@ class ModelReader {
       refuse_card(card, name + ": scaled matrices are not supported");
     }
     if (name != "WTMASS" || nastran_number(card, 1, 1) == 1) return;
-    left_out_.remark("PARAM,WTMASS " + card.field(1) +
-                     ": the deck's densities are weights, the study needs masses");
+    left_out_.remark(
+        "PARAM,WTMASS " + card.field(1) +
+        ": the densities of the deck are weight densities, the study needs mass densities");
   }
 
   /// Property of an element; its default is the element's number.

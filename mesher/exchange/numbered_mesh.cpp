@@ -18,7 +18,7 @@ class Builder {
       : file_(file), options_(options) {}
 
   IndexedMesh build() {
-    if (file_.parts.empty()) throw InputError("it has no volume elements");
+    if (file_.parts.empty()) throw InputError("expected volume elements, found none");
     require_known_parts(names_of(file_.parts), options_.material_of_part);
     number_nodes();
     mesh().materials = options_.materials;
@@ -37,7 +37,7 @@ class Builder {
         for (const std::int64_t node : element.nodes) {
           if (file_.nodes.count(node) == 0) {
             throw InputError("element " + std::to_string(element.number) + " has node " +
-                             std::to_string(node) + ", which the file does not give");
+                             std::to_string(node) + ", which the file does not define");
           }
           result_.index_of[node] = 0;
         }
@@ -73,7 +73,7 @@ class Builder {
         const auto found = result_.index_of.find(node);
         if (found == result_.index_of.end()) {
           throw InputError("surface '" + surface.name + "': element " +
-                           std::to_string(face.number) + " bounds no part");
+                           std::to_string(face.number) + " is on the boundary of no part");
         }
         block.nodes.push_back(found->second);
       }
@@ -114,7 +114,7 @@ class Builder {
 void NumberedMesh::add_node(std::int64_t number, const std::array<double, 3>& position) {
   const auto [entry, is_new] = nodes.emplace(number, position);
   if (is_new || entry->second == position) return;
-  throw InputError("node " + std::to_string(number) + " comes twice, in different places");
+  throw InputError("node " + std::to_string(number) + " is defined twice, at different positions");
 }
 
 IndexedMesh indexed_mesh(const NumberedMesh& file, const ImportOptions& options) {

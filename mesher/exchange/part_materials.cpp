@@ -10,7 +10,7 @@ std::size_t material_index(const std::string& part, const std::vector<Material>&
                            const std::map<std::string, std::string>& material_of_part) {
   const auto entry = material_of_part.find(part);
   if (entry == material_of_part.end()) {
-    throw InputError("part '" + part + "' has no material; list it under a material's parts");
+    throw InputError("part '" + part + "' has no material; add it to the parts of a material");
   }
   try {
     return find_name(names_of(materials), entry->second, "material");

@@ -67,7 +67,7 @@ class Importer {
       for (const std::int64_t node : group.nodes) {
         if (mesh_.nodes.count(node) == 0) {
           throw InputError("group '" + group.name + "' has node " + std::to_string(node) +
-                           ", which the file does not give");
+                           ", which the file does not define");
         }
         mesh_.node_sets[group.name].insert(node);
       }
@@ -112,7 +112,7 @@ class Importer {
       throw InputError(
           std::to_string(solids_.size() - part_of.size()) +
           " elements belong to no part, the first is element " + std::to_string(label) +
-          ": list groups under a material's parts; with solids there are " + listed(groups));
+          "; add groups to the parts of a material; groups with solid elements: " + listed(groups));
     }
   }
 

@@ -141,7 +141,7 @@ std::vector<Number> numbers_in(const Line& line) {
     Number number{};
     const auto [next, error] = std::from_chars(at, end, number);
     if (error != std::errc() || (next != end && *next != ' ' && *next != '\t')) {
-      line.refuse("expected numbers between blanks, found '" +
+      line.refuse("expected numbers separated by blanks, found '" +
                   std::string(trimmed(line.text).substr(0, 40)) + "'");
     }
     numbers.push_back(number);
@@ -183,7 +183,7 @@ class Reader {
   void add_nodes(const Lines& lines) {
     for (std::size_t l = 0; l < lines.size(); l += 2) {
       const std::vector<std::int64_t> head = numbers_in<std::int64_t>(lines[l]);
-      if (head.empty() || l + 1 == lines.size()) lines[l].refuse("expected a node of two lines");
+      if (head.empty() || l + 1 == lines.size()) lines[l].refuse("expected two lines per node");
       const std::vector<double> x = numbers_in<double>(lines[l + 1]);
       if (x.size() != 3) lines[l + 1].refuse("expected three coordinates");
       try {
@@ -217,7 +217,7 @@ class Reader {
                      std::to_string(nodes.size()));
       }
       if (!labels_.insert(head[0]).second) {
-        first.refuse("element " + std::to_string(head[0]) + " comes twice");
+        first.refuse("element " + std::to_string(head[0]) + " is defined twice");
       }
       add_element(first, {{head[0], {}, nodes}, head[3]}, descriptor);
     }
@@ -291,8 +291,9 @@ class Reader {
     if (lines.size() < 2) return;
     const std::vector<double> factors = numbers_in<double>(lines[1]);
     if (factors.empty() || std::abs(factors[0] * length_unit_m_ - 1) < 1e-3) return;
-    left_out_.remark("data set 164 says that lengths count " + rounded_text(factors[0], 4) +
-                     " to the metre, the study's unit " + rounded_text(1 / length_unit_m_, 4));
+    left_out_.remark("data set 164 gives " + rounded_text(factors[0], 4) +
+                     " length units per metre, but the unit of the study is " +
+                     rounded_text(1 / length_unit_m_, 4));
   }
 
   double length_unit_m_;

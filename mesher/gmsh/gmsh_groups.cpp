@@ -136,7 +136,7 @@ std::vector<GmshGroup> gmsh_groups(int dimension, GmshSource source, const Group
     if (group.name.empty() && !outside) {
       throw InputError("the script has a physical group without a name: dimension " +
                        std::to_string(dim) + ", tag " + std::to_string(tag) +
-                       "; name it, as in Physical Volume(\"part\") = {…}");
+                       "; name it, for example Physical Volume(\"part\") = {…}");
     }
     if (group.name.empty()) group.name = entity_name(dim) + "_" + std::to_string(tag);
     gmsh::model::getEntitiesForPhysicalGroup(dim, tag, group.entities);
@@ -200,7 +200,8 @@ std::map<std::string, std::size_t> gmsh_elements_off_volumes() {
       for (auto node = all.nodes[t].begin(); node != all.nodes[t].end();) {
         const auto end = node + static_cast<std::ptrdiff_t>(n);
         if (std::any_of(node, end, is_off)) {
-          ++off["elements of type '" + gmsh_element_type(all.types[t]).name + "' off the solids"];
+          ++off["elements of type '" + gmsh_element_type(all.types[t]).name +
+                "' that are not part of solids"];
         }
         node = end;
       }
@@ -212,7 +213,7 @@ std::map<std::string, std::size_t> gmsh_elements_off_volumes() {
   gmsh::model::mesh::getNodes(nodes, coordinates, parameters);
   const std::size_t loose =
       sorted_once(std::move(nodes)).size() - node_tags_in(kAllEntities).size();
-  if (loose > 0) off["nodes of no element"] = loose;
+  if (loose > 0) off["nodes that belong to no element"] = loose;
   return off;
 }
 

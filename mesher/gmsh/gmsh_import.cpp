@@ -52,7 +52,7 @@ void glue(const gmsh::vectorpair& volumes) {
   gmsh::model::occ::synchronize();
   if (pieces.size() != volumes.size()) {
     throw InputError("its volumes overlap: " + std::to_string(volumes.size()) +
-                     " of them cut each other into " + std::to_string(pieces.size()));
+                     " of them intersect each other in " + std::to_string(pieces.size()));
   }
 }
 
@@ -195,7 +195,7 @@ void require_whole_shapes(const std::string& contents, GmshSession& session) {
                        std::to_string(group) +
                        " have different elements of the elementary entity " +
                        std::to_string(shape.second) +
-                       ", which gmsh would give to both: give each group entities of its own");
+                       ", which gmsh would assign to both; use separate entities for each group");
     }
   }
 }

@@ -50,7 +50,8 @@ class NodeNumbering {
     indices.reserve(tags.size());
     for (const std::size_t tag : tags) {
       const auto found = std::lower_bound(tags_.begin(), tags_.end(), tag);
-      if (found == tags_.end() || *found != tag) throw InputError(label + " bounds no part");
+      if (found == tags_.end() || *found != tag)
+        throw InputError(label + " is on the boundary of no part");
       indices.push_back(static_cast<std::int32_t>(found - tags_.begin()));
     }
     return indices;
@@ -117,9 +118,9 @@ Mesh import_gmsh_mesh(const std::vector<Material>& materials,
   const std::vector<GmshGroup> volumes = gmsh_groups(3, source, names);
   if (volumes.empty()) {
     throw InputError(source == GmshSource::script
-                         ? "the script has no physical volume; each part needs one, as in "
+                         ? "the script has no physical volume; each part needs one, for example "
                            "Physical Volume(\"part\") = {…}"
-                         : "it has no volume elements");
+                         : "expected volume elements, found none");
   }
   require_one_part_per_volume(volumes);
   require_known_parts(names_of(volumes), material_of_part);

@@ -45,7 +45,7 @@ bool is_want_of_memory(const std::string& error) { return error.starts_with("Out
 
 GmshSession::GmshSession() {
   if (gmsh_in_use.test_and_set()) {
-    throw ComputationError("gmsh is in use already: only one gmsh session can be open at a time");
+    throw ComputationError("only one gmsh session can be open at a time, and another one is open");
   }
   gmsh::initialize(0, nullptr, /*readConfigFiles=*/false);
   gmsh::option::setNumber("General.Terminal", 0);

@@ -27,7 +27,8 @@ void report(const Progress& progress, const std::string& line) {
 
 void open_script(GmshSession& session, const std::filesystem::path& script) {
   const std::string errors = session.errors_of([&] { gmsh::open(script.string()); });
-  if (!errors.empty()) throw InputError(script.string() + ": gmsh refuses the script: " + errors);
+  if (!errors.empty())
+    throw InputError(script.string() + ": gmsh reports errors in the script: " + errors);
 }
 
 /// Refuses scaling factors: gmsh applies them when it writes files, not to the mesh that its API
@@ -38,8 +39,8 @@ void refuse_scaling(const std::filesystem::path& script) {
     gmsh::option::getNumber(option, factor);
     if (factor == 1) continue;
     throw InputError(script.string() + ": " + option + " = " + rounded_text(factor) +
-                     " would have no effect here; take it away and say the unit of the script's "
-                     "lengths in geometry.unit");
+                     " has no effect here; remove it, and give the unit of length of the script in "
+                     "geometry.unit");
   }
 }
 
@@ -67,8 +68,8 @@ std::string onelab_name(const std::map<std::string, std::string>& declared,
     return declared.at(names[find_name(names, constant, "declared constant")]);
   } catch (const InputError& error) {
     throw InputError(script.string() + ": " + error.what() +
-                     "; gmsh tells of those with a Name: " + "DefineConstant[" + constant +
-                     " = {1, Name \"Parameters/" + constant + "\"}]");
+                     "; gmsh lists only constants that have a Name, such as " + "DefineConstant[" +
+                     constant + " = {1, Name \"Parameters/" + constant + "\"}]");
   }
 }
 
@@ -99,7 +100,7 @@ void require_meshable(const ScriptMeshOptions& options) {
       std::find(kOffered.begin(), kOffered.end(), *options.element) != kOffered.end()) {
     return;
   }
-  throw InputError("a script is meshed with hex27, hex20, hex8 or tet10, found " +
+  throw InputError("expected an element hex27, hex20, hex8 or tet10 for a script, found " +
                    std::string(name_of(*options.element)));
 }
 
@@ -124,10 +125,10 @@ void require_wanted_kind(const Mesh& mesh, const ScriptMeshOptions& options) {
   if (!options.element) return;
   const auto is_wanted = [&](const ElementBlock& block) { return block.kind == *options.element; };
   if (std::any_of(mesh.blocks.begin(), mesh.blocks.end(), is_wanted)) return;
-  throw InputError(options.script.string() + ": its elements are " +
-                   std::string(name_of(mesh.blocks.front().kind)) + ", asked for are " +
+  throw InputError(options.script.string() + ": the script makes elements of kind " +
+                   std::string(name_of(mesh.blocks.front().kind)) + ", but mesh.element is " +
                    std::string(name_of(*options.element)) +
-                   "; whether there are hexahedra is up to the script (Recombine Surface)");
+                   "; hexahedra require Recombine Surface in the script");
 }
 
 Mesh imported_mesh(const ScriptMeshOptions& options) {
@@ -151,7 +152,7 @@ double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) 
   throw InputError("node set '" + patches.name + "': no node of face set '" + patches.face_set +
                    "' lies within " + rounded_text(patches.radius_m, 4) + " m of (" +
                    rounded_texts(centre, 4) + ") m, the nearest is " + rounded_text(nearest_m, 4) +
-                   " m away; raise the radius or the divisions of the mesh");
+                   " m away; increase the radius or refine the mesh");
 }
 
 NodeSet patch_nodes(const Mesh& mesh, const NodePatches& patches) {
@@ -183,8 +184,8 @@ Mesh mesh_script(const ScriptMeshOptions& options, const Progress& progress, con
     run_script(session, options);
     generate(session, options);
     for (const std::string& failure : session.failures())
-      report(warn, options.script.string() + ": gmsh: " + failure + "; is there memory left?");
-    report(progress, "gmsh is done, taking the mesh over");
+      report(warn, options.script.string() + ": gmsh: " + failure + "; check the free memory");
+    report(progress, "gmsh has finished; importing the mesh");
     mesh = imported_mesh(options);
   }
   require_wanted_kind(mesh, options);

@@ -41,7 +41,7 @@ void check_terms(const std::vector<Term>& terms, std::size_t site_count, const s
     const auto& [x, y, z] = term.coefficients;
     if (!(std::isfinite(x) && std::isfinite(y) && std::isfinite(z) &&
           (x != 0 || y != 0 || z != 0))) {
-      throw InputError(who + " has a term whose direction is zero or no number");
+      throw InputError(who + " has a term whose direction is zero or not finite");
     }
   }
 }
@@ -61,7 +61,7 @@ void check_mass(const PointMass& mass, std::size_t node_count, std::size_t site_
   if (!(mass.mass_kg >= 0 && std::isfinite(mass.mass_kg) && tensor.allFinite() &&
         std::all_of(mass.center_m.begin(), mass.center_m.end(),
                     [](double x) { return std::isfinite(x); }))) {
-    throw InputError(who + " must have a mass of at least 0 and finite figures");
+    throw InputError(who + " must have a mass of at least 0 and finite values");
   }
   constexpr double kRounding = 1e-12;
   if (Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor).eigenvalues()[0] <
@@ -71,8 +71,8 @@ void check_mass(const PointMass& mass, std::size_t node_count, std::size_t site_
   if (is_node && !(std::all_of(mass.center_m.begin(), mass.center_m.end(), is_zero) &&
                    std::all_of(i.begin(), i.end(), is_zero))) {
     throw InputError(who +
-                     " has an offset or an inertia at a node, which does not rotate; couple "
-                     "nodes to a reference point");
+                     " has an offset or an inertia at a node, which has no rotations; use a "
+                     "reference point that is coupled to nodes");
   }
 }
 

@@ -81,7 +81,7 @@ std::vector<std::int32_t> read_offsets(const Hdf5Reader& file, const std::string
   std::vector<std::int32_t> offsets = file.read_integers(dataset, {items + 1});
   if (offsets.front() != 0 || !std::is_sorted(offsets.begin(), offsets.end()) ||
       static_cast<std::size_t>(offsets.back()) != entries) {
-    file.refuse(dataset, "expected numbers that rise from 0 to " + std::to_string(entries));
+    file.refuse(dataset, "expected ascending numbers from 0 to " + std::to_string(entries));
   }
   return offsets;
 }
@@ -197,7 +197,7 @@ std::vector<Support> read_supports(const Hdf5Reader& file) {
     system.is_cylindrical = cylindrical[k] != 0;
     constexpr double kUnit = 1e-6;  // axes in files may be of single precision
     if (!(system.axes.transpose() * system.axes).isIdentity(kUnit)) {
-      file.refuse(group + "axes", "expected three unit vectors at right angles to one another");
+      file.refuse(group + "axes", "expected three mutually orthogonal unit vectors");
     }
   }
   return supports;

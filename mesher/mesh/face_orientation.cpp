@@ -91,7 +91,8 @@ void orient_outwards(const Mesh& mesh, const std::string& name, FaceBlock& faces
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const NodeList& side = outward[f];
     if (side.empty()) {
-      throw InputError("physical surface '" + name + "' has a face that bounds no part");
+      throw InputError("physical surface '" + name +
+                       "' has a face that is on the boundary of no part");
     }
     const auto start = std::find(side.begin(), side.end(), faces.nodes[f * n]) - side.begin();
     const NodeList from_start = turned(side, corners, static_cast<std::size_t>(start));

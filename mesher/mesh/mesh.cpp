@@ -52,8 +52,8 @@ void check_connectivity(std::span<const std::int32_t> indices, ElementKind kind,
            std::to_string(expected_dimension));
   }
   if (indices.size() % nodes_per_element(kind) != 0) {
-    refuse(what + " has " + std::to_string(indices.size()) + " node indices, no multiple of " +
-           std::to_string(nodes_per_element(kind)));
+    refuse(what + " has " + std::to_string(indices.size()) +
+           " node indices, expected a multiple of " + std::to_string(nodes_per_element(kind)));
   }
   check_indices(indices, node_count, what);
 }
@@ -81,7 +81,7 @@ void check_parts(const Mesh& mesh) {
 }
 
 void check_blocks(const Mesh& mesh) {
-  if (mesh.blocks.empty()) refuse("it has no elements");
+  if (mesh.blocks.empty()) refuse("expected elements, found none");
   check_parts(mesh);
   std::vector<bool> used(mesh.nodes.size(), false);
   for (const ElementBlock& block : mesh.blocks) {
@@ -131,12 +131,11 @@ void check_slit(const Mesh& mesh, const Slit& slit) {
     if (lower == upper || mesh.nodes[static_cast<std::size_t>(lower)] !=
                               mesh.nodes[static_cast<std::size_t>(upper)]) {
       refuse(what + " pairs nodes " + std::to_string(lower) + " and " + std::to_string(upper) +
-             ", expected two nodes in one place");
+             ", expected two coincident nodes");
     }
     const auto& [x, y, z] = slit.normals[p];
     if (!(std::abs(std::hypot(x, y, z) - 1) <= kUnitLength && std::isfinite(slit.areas_m2[p]))) {
-      refuse(what + ": pair " + std::to_string(p) +
-             " has no unit vector as its normal, or no finite area");
+      refuse(what + ": pair " + std::to_string(p) + " must have a unit normal and a finite area");
     }
   }
 }
@@ -158,7 +157,7 @@ void require_one_meaning(const NodeSet* nodes, const FaceSet* faces) {
   if (of_faces == nodes->nodes) return;
   throw InputError("the node set '" + nodes->name + "' has " + counted_nodes(nodes->nodes.size()) +
                    ", the face set of the same name covers " + counted_nodes(of_faces.size()) +
-                   (of_faces.size() == nodes->nodes.size() ? ", others" : "") +
+                   (of_faces.size() == nodes->nodes.size() ? ", but different ones" : "") +
                    "; rename one of them");
 }
 

@@ -98,7 +98,7 @@ std::vector<std::string> ordered_members(const Hdf5Reader& file,
       const std::string object = std::string(group).append("/").append(name);
       const std::int64_t index = file.integer_attribute(object, kIndex);
       if (!by_index.emplace(index, object).second) {
-        file.refuse(object, "index " + std::to_string(index) + " is taken");
+        file.refuse(object, "index " + std::to_string(index) + " occurs twice");
       }
     }
   }
@@ -207,7 +207,7 @@ void check_node_order(const Mesh& mesh, const std::vector<std::int32_t>& order) 
     if (!sound) break;
     seen[n] = true;
   }
-  if (!sound) throw InputError("the node order is no permutation of the nodes");
+  if (!sound) throw InputError("the node order is not a permutation of the nodes");
 }
 
 void check(const MeshFile& file) {

@@ -196,7 +196,7 @@ void require_sound_elements(const Mesh& mesh) {
             .rowwise()
             .mean();
     throw ComputationError("mesh: part '" + block.part + "': element " +
-                           std::to_string(measured.worst_element) + " round (" +
+                           std::to_string(measured.worst_element) + " near (" +
                            rounded_texts({centre.data(), 3}, 4) +
                            ") m is inverted or degenerate (scaled Jacobian " +
                            rounded_text(measured.smallest_scaled_jacobian, 3) +

@@ -70,7 +70,8 @@ class PieceBuilder {
   void add_slit(Slit slit) {
     if (!has(slit.lower) && !has(slit.upper)) return;
     if (!has(slit.lower) || !has(slit.upper)) {
-      throw InputError("slit '" + slit.name + "' lies between two pieces; cut elsewhere");
+      throw InputError("slit '" + slit.name +
+                       "' lies between two substructures; use another cutting plane");
     }
     renumber(slit.lower);
     renumber(slit.upper);
@@ -130,14 +131,14 @@ PieceOfElement pieces_by_parts(const Mesh& mesh,
   for (std::size_t p = 0; p < parts.size(); ++p) {
     for (const std::string& part : parts[p]) {
       std::int32_t& piece = piece_of_part[find_name(names, part, "part")];
-      if (piece >= 0) throw InputError("part '" + part + "' belongs to two pieces");
+      if (piece >= 0) throw InputError("part '" + part + "' belongs to two substructures");
       piece = static_cast<std::int32_t>(p);
     }
   }
   PieceOfElement result;
   for (const ElementBlock& block : mesh.blocks) {
     const std::int32_t piece = piece_of_part[find_name(names, block.part, "part")];
-    if (piece < 0) throw InputError("part '" + block.part + "' belongs to no piece");
+    if (piece < 0) throw InputError("part '" + block.part + "' belongs to no substructure");
     result.insert(result.end(), block.size(), piece);
   }
   return result;
@@ -147,7 +148,7 @@ PieceOfElement pieces_by_planes(const Mesh& mesh, const Eigen::Vector3d& normal,
                                 std::span<const double> offsets_m) {
   if (std::adjacent_find(offsets_m.begin(), offsets_m.end(), std::greater_equal<>()) !=
       offsets_m.end()) {
-    throw InputError("the planes of a cut do not increase along their normal");
+    throw InputError("the cutting planes must be in ascending order along their normal");
   }
   const double tolerance = kOnPlane * bounding_box(mesh).extent_m().norm();
   PieceOfElement result;
@@ -160,14 +161,14 @@ PieceOfElement pieces_by_planes(const Mesh& mesh, const Eigen::Vector3d& normal,
       if (piece != offsets_m.end() && high > *piece + tolerance) {
         throw InputError("the plane at " + exact_text(*piece) +
                          " m passes through elements of part '" + block.part +
-                         "'; choose one between layers of elements");
+                         "'; use a plane between layers of elements");
       }
       result.push_back(static_cast<std::int32_t>(piece - offsets_m.begin()));
     }
   }
   for (std::size_t p = 0; p <= offsets_m.size(); ++p) {
     if (std::find(result.begin(), result.end(), static_cast<std::int32_t>(p)) == result.end()) {
-      throw InputError("the planes of a cut leave piece " + std::to_string(p + 1) +
+      throw InputError("the cutting planes leave substructure " + std::to_string(p + 1) +
                        " without elements");
     }
   }
@@ -180,7 +181,7 @@ std::vector<MeshPiece> cut_apart(const Mesh& mesh, const PieceOfElement& piece_o
                                  const std::vector<std::string>& names) {
   if (!mesh.connections.empty()) {
     throw InputError("a structure with " + mesh.connections.text() +
-                     " cannot be cut into pieces; leave them out");
+                     " cannot be divided into substructures; remove them");
   }
   const CommonFaces common = common_faces(mesh, piece_of_element);
   std::vector<MeshPiece> pieces;

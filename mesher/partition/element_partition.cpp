@@ -60,7 +60,7 @@ ElementPartition partition_elements(const Mesh& mesh, int count) {
       METIS_PartMeshDual(&element_count, &node_count, lists.offsets.data(), lists.corners.data(),
                          nullptr, nullptr, &common, &parts, nullptr, options.data(), &cut,
                          partition.processes.data(), process_of_node.data()),
-      "sharing out the elements");
+      "partitioning the elements");
   fill_empty(partition.processes, count);
   return partition;
 }

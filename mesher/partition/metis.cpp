@@ -16,8 +16,8 @@ MetisOptions metis_options() {
 void require_metis(int status, const std::string& doing) {
   if (status == METIS_OK) return;
   const char* const why = status == METIS_ERROR_MEMORY  ? "out of memory"
-                          : status == METIS_ERROR_INPUT ? "it refuses the input"
-                                                        : "it failed";
+                          : status == METIS_ERROR_INPUT ? "invalid input"
+                                                        : "internal error";
   throw ComputationError("METIS, " + doing + ": " + why);
 }
 

@@ -57,7 +57,8 @@ void CutTopology::find_faces() {
         [](const auto& side, const FacetKey& wanted) { return side.key < wanted; });
     const auto second = first == near_.sides.end() ? first : first + 1;
     if (second == near_.sides.end() || second->key != face.key) {
-      refuse(face.cut, "a slit needs an element on either side of its faces, found a face with one",
+      refuse(face.cut,
+             "a slit needs an element on both sides of its faces, found a face with only one",
              corner);
     }
     faces_.push_back({face.cut, &*first, &*second});
@@ -152,7 +153,7 @@ std::vector<CutTopology::Across> CutTopology::lips_across_faces() {
     const std::size_t b = lip_of(*face.upper);
     if (a == near_.incidences.size()) continue;  // all its nodes lie on the tip
     if (a == b) {
-      refuse(face.cut, "its two sides hang together away from its inner edge",
+      refuse(face.cut, "its two sides are connected at a place other than its inner edge",
              face.lower->key.back());
     }
     across.push_back({a, b, face.cut});
@@ -177,7 +178,7 @@ void CutTopology::colour_from(std::size_t start, const std::vector<Across>& acro
         colour_[other] = opposite;
         front.push_back(other);
       } else if (colour_[other] != opposite) {
-        refuse(cut, "it has no two sides", near_.incidences[lip].node);
+        refuse(cut, "it does not separate two sides", near_.incidences[lip].node);
       }
     }
   }

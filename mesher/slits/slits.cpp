@@ -74,7 +74,7 @@ const CutSurroundings::KnownFacet& owner_of(const CutSurroundings& near,
   const auto has_key = [](const auto& side, const FacetKey& wanted) { return side.key < wanted; };
   const auto side = std::lower_bound(near.sides.begin(), near.sides.end(), key, has_key);
   if (side == near.sides.end() || side->key != key) {
-    throw InputError("face set '" + set + "' has a face that bounds no part");
+    throw InputError("face set '" + set + "' has a face that is on the boundary of no part");
   }
   if (const CutSurroundings::Face* const face = near.face_with(key)) {
     return *topology.faces()[static_cast<std::size_t>(face - near.faces.data())].lower;
@@ -221,8 +221,8 @@ void require_open(const std::vector<Slit>& slits) {
   for (const Slit& slit : slits) {
     if (!slit.lower.empty()) continue;
     throw InputError("slit '" + slit.name +
-                     "': no node of its faces comes apart, all lie on its inner edge; it needs "
-                     "more elements or a mouth on a free surface");
+                     "': no node of its faces is separated, since all lie on its inner edge; "
+                     "refine the slit, or let it end at a free surface");
   }
 }
 

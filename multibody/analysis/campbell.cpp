@@ -115,12 +115,11 @@ CampbellDiagram campbell_diagram(const Model& model, const std::vector<double>& 
   const std::optional<TurningFrame> own = steady_rotation(model);
   if (!own)
     throw InputError(
-        "no prescribed body turns at time zero, so there is no axis for a Campbell diagram; give "
-        "the "
-        "body that turns an initial rate, of which the diagram takes the axis and the sense");
+        "a Campbell diagram needs a prescribed body that rotates at time zero, found none; set its "
+        "initial_rate, which gives the axis and sense of rotation");
   for (std::size_t r = 0; r < rates_rad_s.size(); ++r)
     if (!(rates_rad_s[r] >= 0 && (r == 0 || rates_rad_s[r] > rates_rad_s[r - 1])))
-      throw InputError("the rates of a Campbell diagram must ascend from zero or more");
+      throw InputError("the rates of a Campbell diagram must be ascending and not negative");
   CampbellDiagram diagram{rates_rad_s, {}};
   std::optional<ModesAtRate> before;
   for (const double rate : rates_rad_s) {

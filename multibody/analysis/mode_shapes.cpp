@@ -197,7 +197,7 @@ std::vector<ModeShape> linearise(const Model& model, LinearisedAt at) {
   if (at == LinearisedAt::given && tree::is_tree(model)) return TreeLinearisation(model).modes();
   if (at == LinearisedAt::given && !is_still(model))
     throw InputError(
-        "the joints close a loop, about which a motion cannot be linearised; give bodies no "
+        "a moving model with closed loops of joints cannot be linearised; remove the initial "
         "velocities, or linearise about the equilibrium");
   const System system(model);
   EquationsOfMotion held(system, Drive::held);

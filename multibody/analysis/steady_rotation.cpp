@@ -53,9 +53,9 @@ bool is_constant(const TimeTable& table) {
 }
 
 [[noreturn]] void refuse(const std::string& what) {
-  throw InputError(what +
-                   "; small motions about steady rotation need coefficients that are "
-                   "constant as seen from the bodies that turn");
+  throw InputError(
+      what +
+      "; a linearisation about steady rotation needs constant coefficients in the rotating frame");
 }
 
 bool travels(const PrescribedBody& body) {
@@ -81,18 +81,18 @@ bool is_same(const TurningFrame& a, const TurningFrame& b) {
 template <ForceElement Kind>
 void check_load(const Kind& element, const Vector3d& axis) {
   if constexpr (TimedForce<Kind>)
-    if (!is_constant(element.load_over_time())) refuse(title(element) + " changes with time");
+    if (!is_constant(element.load_over_time())) refuse(title(element) + " varies with time");
   if constexpr (RelaxingForce<Kind>)
     if (element.branch_count() > 0) refuse(title(element) + " relaxes");
   if constexpr (WorldForce<Kind>)
     if (element.keeps_direction() && !is_along(element.direction, axis))
-      refuse(title(element) + " is not along the axis about which prescribed bodies turn");
+      refuse(title(element) + " is not parallel to the axis of rotation of the prescribed bodies");
 }
 
 void check_loads(const Model& model, const TurningFrame& frame) {
   const Vector3d& axis = frame.rate_rad_s;
   if (!is_along(model.gravity_m_s2, axis))
-    refuse("gravity is not along the axis about which prescribed bodies turn");
+    refuse("gravity is not parallel to the axis of rotation of the prescribed bodies");
   for (const Joint& joint : model.joints)
     for (const JointMotor& motor : joint.motors)
       if (motor.path.moves()) refuse("motor '" + motor.name + "' moves its joint");
@@ -113,7 +113,7 @@ void check_joints(const EquationsOfMotion& equations, const TurningFrame& frame)
       speed = std::max(speed, equations.marker(marker).pd.norm());
     if (parting.translation > kSame * speed || parting.rotation > kSame * rate)
       refuse("joint '" + system.joints[k].name +
-             "' ties a body to one that does not turn with it about the same axis");
+             "' connects a body to one that does not rotate with it about the same axis");
   }
 }
 
@@ -139,8 +139,8 @@ void check_evenness(ReducedDynamics& here, const TurningFrame& frame) {
   const VectorXd load = there.accelerations_at(none) - here.accelerations_at(none);
   if (difference > kEven * largest || load.norm() > kEven / kProbe * largest)
     refuse(
-        "a joint or a force element between bodies that turn and bodies that do not is not the "
-        "same all round the axis");
+        "a joint or a force element between rotating and non-rotating bodies is not rotationally "
+        "symmetric about the axis");
 }
 
 /// Newton's step, and the accelerations that remain along neutral directions.
@@ -173,14 +173,15 @@ std::optional<TurningFrame> steady_rotation(const Model& model) {
   const TurningFrame frame = frame_of(turning.front().motion);
   for (const auto& [name, motion] : turning) {
     if (travels(motion) || turns_unevenly(motion))
-      refuse("prescribed body '" + name + "' does not turn at a constant rate about a fixed axis");
+      refuse("prescribed body '" + name +
+             "' does not rotate at a constant rate about a fixed axis");
     if (!is_same(frame, frame_of(motion)))
       refuse("prescribed bodies '" + turning.front().name + "' and '" + name +
-             "' turn at different rates or about different axes");
+             "' rotate at different rates or about different axes");
   }
   for (const auto& [name, motion] : others)
     if (travels(motion) || turns_unevenly(motion))
-      refuse("prescribed body '" + name + "' moves while others turn");
+      refuse("prescribed body '" + name + "' moves while others rotate");
   check_loads(model, frame);
   return frame;
 }
@@ -208,8 +209,8 @@ VectorXd rotating_positions(EquationsOfMotion& equations, const TurningFrame& fr
     at = reduced.positions_at(step.xi);
   }
   throw ComputationError(
-      "no state of steady rotation was found from the poses given, in which gravity, forces and "
-      "centrifugal loads balance; near a critical speed there may be none");
+      "no state of steady rotation, in which gravity, forces and centrifugal loads balance, was "
+      "found from the given poses; near a critical speed there may be none");
 }
 
 }  // namespace flexneck::multibody

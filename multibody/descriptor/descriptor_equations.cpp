@@ -160,8 +160,9 @@ class DescriptorEquations final : public Equations {
     if (!indefinite) return error_.name_of(component);
     return error_.name_of(component) + " (the mass matrix of body '" +
            system_.bodies[*indefinite].name +
-           "' is not positive definite as it is deformed: it is thinner than its displacements of "
-           "second order. The recursive form may go further, several bodies in its place do)";
+           "' is not positive definite in its deformed state: its second-order displacements "
+           "exceed its thickness; use the recursive formulation, or several bodies instead of this "
+           "one)";
   }
   const ForceSet& forces() const override { return equations_.forces(); }
   int evaluations() const override { return equations_.evaluations(); }

@@ -103,10 +103,11 @@ VectorXd moved_rows(const EquationsOfMotion& equations, const MasslessRotation& 
   axis.cwiseAbs().maxCoeff(&main);
   if (axis[main] < 0) axis = -axis;
   axis = (axis.array().abs() < 1e-9).select(0, axis);
-  throw InputError("body '" + system.bodies[body].name +
-                   "' has no moment of inertia about the axis (" + rounded_texts({axis.data(), 3}) +
-                   ") of its frame, through its centre of mass, and no joint holds it there, so "
-                   "its rotation is not determined; give it a moment of inertia, or hold it");
+  throw InputError(
+      "body '" + system.bodies[body].name + "' has no moment of inertia about the axis (" +
+      rounded_texts({axis.data(), 3}) +
+      ") of its frame, through its centre of mass, and no joint constrains that rotation, so that "
+      "it is not determined; give it a moment of inertia, or constrain the rotation");
 }
 
 }  // namespace

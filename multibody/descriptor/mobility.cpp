@@ -49,11 +49,11 @@ std::string contradictory_motors(const EquationsOfMotion& equations) {
   if (count == 0) return {};
   if (count == 1)
     return names +
-           " asks for a motion that the joints do not leave free; take it out, or joints "
-           "that hold less";
+           " prescribes a motion that the joints do not allow; remove it, or use joints with fewer "
+           "constraints";
   return names +
-         " give the same freedom and contradict each other; keep one of them, or make them "
-         "agree";
+         " prescribe the same degree of freedom and contradict each other; keep one of them, or "
+         "make them agree";
 }
 
 std::vector<std::string> doubts_of_mobility(const EquationsOfMotion& equations) {
@@ -65,19 +65,20 @@ std::vector<std::string> doubts_of_mobility(const EquationsOfMotion& equations) 
   each_row(equations, [&](std::size_t k, Index r, Index row) {
     any_motor = any_motor || is_motor(equations.joint(k), r);
     if (solver.is_left_out(k, r) || !(shares[row] < kAlignment)) return;
-    doubts.push_back(
-        "joint '" + equations.system().joints[k].name + "', " + name_of_row(equations.joint(k), r) +
-        ": other joints hold the same but for " + rounded_text(shares[row]) +
-        " of it, as axes that are out of line by so many rad do. It takes a degree of freedom, "
-        "and its reactions may be large; align the joints (to " +
-        rounded_text(kDependent) + "), or take one that holds less");
+    doubts.push_back("joint '" + equations.system().joints[k].name + "', " +
+                     name_of_row(equations.joint(k), r) +
+                     ": other joints impose the same constraint except for a misalignment of " +
+                     rounded_text(shares[row]) +
+                     " (as of axes that are misaligned by this angle in rad). It removes a degree "
+                     "of freedom, and its reactions may be large; align the joints (to " +
+                     rounded_text(kDependent) + "), or use a joint with fewer constraints");
   });
   const auto redundant = static_cast<Index>(solver.redundant_rows().size());
   if (redundant > 0 && !any_motor &&
       solver.velocity_count() == solver.constraint_count() - redundant)
     doubts.push_back(
-        "no degree of freedom is left, and joints hold the same more than once: if the model is "
-        "meant to move, see whether their axes agree");
+        "the model has no degree of freedom left and redundant joint constraints; if it is meant "
+        "to move, check the axes of the joints");
   return doubts;
 }
 

@@ -67,7 +67,7 @@ ErrorEstimate StateError::operator()(const VectorXd& begin, const VectorXd& end,
 }
 
 std::string StateError::name_of(std::size_t component) const {
-  if (system_.bodies.empty()) return "work, as no body is free";
+  if (system_.bodies.empty()) return "work (no body is free)";
   const std::size_t of_bodies = system_.bodies.size() * kComponents;
   if (component >= of_bodies) return name_of_branch(system_.model.forces, component - of_bodies);
   const std::string& body = system_.bodies[component / kComponents].name;

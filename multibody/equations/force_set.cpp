@@ -77,8 +77,8 @@ std::vector<std::vector<std::size_t>> ForceSet::markers_of_elements() const {
 
 std::string ForceSet::name_of_piece(std::size_t index) const {
   std::string who;
-  std::string_view what = is_deflection(index) ? "a stop or a kink of its curve"
-                                               : "its friction or hysteresis turns over";
+  std::string_view what = is_deflection(index) ? "it reaches a stop or a kink of its curve"
+                                               : "its friction or hysteresis reverses";
   std::size_t before = 0;
   model_.forces.each_kind([&]<class Kind>(const std::vector<Kind>& elements) {
     if constexpr (PiecewiseForce<Kind>) {

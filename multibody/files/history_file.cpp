@@ -102,7 +102,7 @@ BodyHistory read_state(const Hdf5Reader& file, const std::string& name, std::siz
   if (const std::string inertia = path_of(path_of(kStates, name), kInertia); file.has(inertia))
     body.inertia = read_vector(file, inertia, 10, kInertiaUnit);
   if (body.modal_rate.rows() != body.modal.rows())
-    file.refuse(path_of(kStates, name), "it has not as many modal rates as modal coordinates");
+    file.refuse(path_of(kStates, name), "expected as many modal rates as modal coordinates");
   return body;
 }
 
@@ -181,7 +181,7 @@ Eigen::VectorXd read_time(const Hdf5Reader& file) {
   Eigen::VectorXd time_s = read_vector(file, "/time", kAnyExtent, "s");
   for (Eigen::Index k = 1; k < time_s.size(); ++k) {
     if (!(time_s[k] > time_s[k - 1])) {
-      file.refuse("/time", "row " + std::to_string(k + 1) + " is not later than the one before");
+      file.refuse("/time", "row " + std::to_string(k + 1) + " is not later than the row before it");
     }
   }
   return time_s;
@@ -194,7 +194,7 @@ HistoryFile read_history(const std::filesystem::path& path) {
   constexpr double kFew = 1e8;
   const auto bytes = static_cast<double>(std::filesystem::file_size(path));
   if (bytes > kFew) {
-    require_memory(path.string() + ": the history", bytes, "read its datasets piece by piece");
+    require_memory(path.string() + ": the history", bytes, "read its datasets in parts");
   }
   HistoryFile file;
   History& history = file.history;

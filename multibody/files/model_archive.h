@@ -205,7 +205,7 @@ void archive(A& all, ForceLists<Kinds...>& forces) {
     } else if (!elements.empty()) {
       throw InputError(
           title(elements.front()) +
-          ": its load is a function that this program evaluates; an FMU cannot carry it");
+          ": its load is a function of the calling program, which an FMU cannot contain");
     }
   };
   (each(forces.template of<Kinds>()), ...);

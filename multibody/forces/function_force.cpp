@@ -31,7 +31,7 @@ void FunctionForce::act(const ForceInput& input, ForceLoad& acting, ForceEnergie
   const RelativeMotion motion = relative_motion(input.i, input.j);
   const FunctionLoad found = load(input.time_s, motion);
   if (!(found.force_N.allFinite() && found.moment_Nm.allFinite()))
-    throw ComputationError(title(*this) + ": its function gives no finite load at " +
+    throw ComputationError(title(*this) + ": its function gives a load that is not finite at " +
                            exact_text(input.time_s) + " s");
   acting.force_N = input.i.R * found.force_N;
   acting.moment_Nm = input.i.R * found.moment_Nm;

@@ -19,7 +19,7 @@ void check_coordinate(const std::string& who, JointCoordinate of, const Joint& j
     for (const JointKind* const kind : kJointKinds)
       if (kind->*has) kinds += (kinds.empty() ? "" : ", ") + std::string(kind->name);
     refuse_force(who, "joint '" + joint.name + "' is " + std::string(joint.kind->name) +
-                          " and has no " + name + "; the kinds that have one are: " + kinds);
+                          " and has no " + name + "; kinds that have one: " + kinds);
   };
   demand(JointCoordinate::distance, &JointKind::has_distance, "distance");
   demand(JointCoordinate::angle, &JointKind::has_angle, "angle");

@@ -24,8 +24,8 @@ LoadCurve LoadCurve::cubic(double c1, double c2, double c3) {
 LoadCurve LoadCurve::locking(double c, double L) {
   if (!(c >= 0 && L > 0 && std::isfinite(c) && std::isfinite(L)))
     throw InputError(
-        "load curve: one that locks needs a stiffness that is not negative and a positive "
-        "deflection at which it locks");
+        "load curve: a curve that locks needs a non-negative stiffness and a positive deflection "
+        "at which it locks");
   LoadCurve curve;
   curve.c1_ = c;
   curve.L_ = L;

@@ -41,8 +41,9 @@ void check_resistance(const std::string& who, const Resistance& resistance) {
     needs_rate = needs_rate || side.unloading_ratio < 1;
   }
   if (needs_rate && !(resistance.full_rate > 0))
-    refuse_force(who,
-                 "friction and hysteresis need the rate at which they are complete (full_rate)");
+    refuse_force(
+        who,
+        "friction and hysteresis need full_rate, the rate at which they reach their full value");
 }
 
 namespace {

@@ -173,10 +173,11 @@ void check_friction(const std::string& who, const Section& section) {
   const SlitFriction& friction = section.friction;
   if (friction.slides == 0) return;
   if (friction.slides < 0 || friction.slides > Section::kMaxSlides)
-    refuse_force(who, "a slit's sides slide in at most " + std::to_string(Section::kMaxSlides) +
-                          " ways, found " + std::to_string(friction.slides));
+    refuse_force(who, "the sides of a slit can slide in at most " +
+                          std::to_string(Section::kMaxSlides) + " ways, found " +
+                          std::to_string(friction.slides));
   if (section.gap_count() < 1 || section.gap_count() > Section::kMaxGapsOfSlit)
-    refuse_force(who, "friction is that of one slit, with one or two gaps");
+    refuse_force(who, "friction needs a single slit with one or two gaps");
   if (!(friction.coefficient >= 0 && std::isfinite(friction.coefficient)))
     refuse_force(who, "coefficient of friction must not be negative");
   if (!(friction.sliding_time_s > 0 && std::isfinite(friction.sliding_time_s)))
@@ -191,13 +192,13 @@ void Section::check(const std::string& who, const ForceSites& sites) const {
   check_friction(who, *this);
   const Eigen::Index gaps = gap_count();
   if (gaps < 0 || gaps > kMaxGaps || stiffness.cols() != stiffness.rows())
-    refuse_force(who, "stiffness must be square, of six motions and at most " +
+    refuse_force(who, "stiffness must be a square matrix for six motions and at most " +
                           std::to_string(kMaxGaps) + " gaps");
   check_stiffness(who, "stiffness", stiffness);
   const Eigen::Index inner = gaps + friction.slides;
   const auto diagonal = stiffness.bottomRightCorner(inner, inner);
   if (gaps > 0 && Eigen::MatrixXd(diagonal).llt().info() != Eigen::Success)
-    refuse_force(who, "stiffness of the gaps must be positive, and so must that of what slides");
+    refuse_force(who, "stiffness of the gaps and of the sliding motions must be positive definite");
   for (std::size_t k = 0; k < branches.size(); ++k) {
     const std::string which = "branch " + std::to_string(k + 1);
     if (branches[k].stiffness.rows() != stiffness.rows())
@@ -207,9 +208,9 @@ void Section::check(const std::string& who, const ForceSites& sites) const {
       refuse_force(who, "relaxation time of " + which + " must be positive");
   }
   if (bending_curve.is_none()) return;
-  if (rest_m.isZero(0)) refuse_force(who, "a bending curve needs a length");
+  if (rest_m.isZero(0)) refuse_force(who, "a bending curve needs a section with a length");
   if (!(bending_curve.first_slope() > 0) || bending_curve.falls())
-    refuse_force(who, "the bending curve must rise at once and never fall");
+    refuse_force(who, "the bending curve must have a positive initial slope and never fall");
 }
 
 Section::Strain Section::with_gaps(const Vector6d& e, const InternalVariables& internal,

@@ -59,7 +59,7 @@ DeformationGuard::DeformationGuard(const Model& model) {
 std::string DeformationGuard::text_of(const Deformation& found) {
   const std::string where =
       found.interface == nullptr ? "its mass" : "interface '" + found.interface->name + "'";
-  return std::string(found.turns ? "turns " : "displaces ") + where + " by " +
+  return std::string(found.turns ? "rotates " : "displaces ") + where + " by " +
          (found.turns ? rounded_text(found.value * 180 / std::numbers::pi, 3) + " deg"
                       : rounded_text(found.value, 3) + " of its length") +
          " at " + rounded_text(found.time_s, 4) + " s";
@@ -85,17 +85,18 @@ void DeformationGuard::check_large(double time_s, std::size_t body, const ConstV
   if (worst.of_limit > watched.largest.of_limit) watched.largest = worst;
   if (is_beyond)
     throw ComputationError("body '" + watched.name + "' " + text_of(worst) +
-                           ", where modes mean nothing; its loads are too large, or it needs "
-                           "stress_stiffening or several bodies in its place");
+                           ", where a modal description is meaningless; its loads are too large, "
+                           "or it needs stress_stiffening or a division into several bodies");
 }
 
 std::vector<std::string> DeformationGuard::warnings() const {
   std::vector<std::string> texts;
   for (const std::optional<Watched>& each : bodies_)
     if (each && each->largest.of_limit > 1)
-      texts.push_back("body '" + each->name + "' leaves the small deformations of its modes at " +
+      texts.push_back("body '" + each->name +
+                      "' exceeds the small deformations that its modes assume at " +
                       rounded_text(each->since_s, 3) + " s and at worst " + text_of(each->largest) +
-                      ": results err by over a tenth, make it several bodies");
+                      "; errors of the results exceed 10 %; divide it into several bodies");
   return texts;
 }
 

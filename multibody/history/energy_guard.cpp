@@ -72,22 +72,22 @@ void EnergyGuard::check(double time_s, const Energies& stored, double dissipated
   const bool is_wrong = !(std::abs(off_J) <= kStopped * books.largest_J);
   books.wrong_steps = is_wrong ? books.wrong_steps + 1 : 0;
   if (books.wrong_steps < kWrongSteps) return;
-  throw ComputationError(
-      "the balance of energy does not hold: " + rounded_text(std::abs(off_J), 3) + " J, " +
-      rounded_text(100 * std::abs(off_J) / books.largest_J, 3) +
-      " % of the largest energy of the run, are " + (off_J < 0 ? "lost" : "gained") + " at " +
-      rounded_text(time_s, kDigitsOfTime) + " s, and it departs at " +
-      rounded_text(books.departs_at_s, kDigitsOfTime) +
-      " s; what follows would be wrong. Make the tolerances or max_step smaller, or take the "
-      "integrator dormand_prince if it is not");
+  throw ComputationError("the energy balance is violated: " + rounded_text(std::abs(off_J), 3) +
+                         " J, " + rounded_text(100 * std::abs(off_J) / books.largest_J, 3) +
+                         " % of the largest energy of the run, are " +
+                         (off_J < 0 ? "lost" : "gained") + " at " +
+                         rounded_text(time_s, kDigitsOfTime) + " s, and the deviation begins at " +
+                         rounded_text(books.departs_at_s, kDigitsOfTime) +
+                         " s; further results would be wrong. Reduce the tolerances or max_step, "
+                         "or use the integrator dormand_prince");
 }
 
 std::vector<std::string> EnergyGuard::warnings() const {
   if (!books_.departs) return {};
-  return {"the balance of energy departs at " + rounded_text(books_.departs_at_s, kDigitsOfTime) +
-          " s: from there on up to " + rounded_text(100 * books_.worst_J / books_.largest_J, 3) +
-          " % of the run's largest energy are lost or gained by its steps; make the tolerances or "
-          "max_step smaller, or take the integrator dormand_prince if it is not"};
+  return {"the energy balance deviates from " + rounded_text(books_.departs_at_s, kDigitsOfTime) +
+          " s on: up to " + rounded_text(100 * books_.worst_J / books_.largest_J, 3) +
+          " % of the largest energy of the run are lost or gained by time steps; reduce the "
+          "tolerances or max_step, or use the integrator dormand_prince"};
 }
 
 }  // namespace flexneck::multibody

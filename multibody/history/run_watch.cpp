@@ -37,9 +37,9 @@ void TurnGuard::check(double time_s, const WatchedMarkers& markers) {
     if (q.dot(each.rotation) < 0) q.coeffs() = -q.coeffs();
     each.rotation = q;
     if (q.w() < least)
-      throw ComputationError(each.title + " is turned by more than 3 rad at " +
-                             rounded_text(time_s) +
-                             " s: its loads jump at half a turn, so that it cannot turn further");
+      throw ComputationError(
+          each.title + " is rotated by more than 3 rad at " + rounded_text(time_s) +
+          " s; its loads would jump at a rotation of pi, so that it cannot rotate further");
   }
 }
 

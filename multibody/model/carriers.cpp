@@ -43,8 +43,8 @@ void carry(const Model& model, const Connection& by, std::size_t from, std::size
   std::optional<Vector3d>& carried = velocities[to];
   if (carried && (*carried - *velocities[from]).norm() > 0)
     throw InputError(by.title + ": body '" + model.bodies[to].name +
-                     "' hangs on prescribed bodies of different initial velocity; a start from "
-                     "equilibrium needs one velocity");
+                     "' is connected to prescribed bodies with different initial velocities; a "
+                     "start from equilibrium needs a common velocity");
   carried = velocities[from];
 }
 

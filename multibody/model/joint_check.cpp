@@ -34,7 +34,8 @@ void check_positions(const Model& model, std::size_t joint, const Violation& fou
   if (found.translation <= kTolerance * size && found.rotation <= kTolerance) return;
   refuse(model.joints[joint], model,
          "at the start the markers are " + rounded_text(found.translation) + " m and " +
-             rounded_text(found.rotation) + " rad apart; give the bodies poses that fit the joint");
+             rounded_text(found.rotation) +
+             " rad apart; give the bodies poses that are consistent with the joint");
 }
 
 bool velocities_fit(const Violation& found, double size_m, double speed_m_s) {
@@ -47,9 +48,9 @@ void check_velocities(const Model& model, std::size_t joint, const Violation& fo
                       double speed_m_s) {
   if (velocities_fit(found, size_m, speed_m_s)) return;
   refuse(model.joints[joint], model,
-         "at the start the markers part with " + rounded_text(found.translation) + " m/s and " +
+         "at the start the markers separate with " + rounded_text(found.translation) + " m/s and " +
              rounded_text(found.rotation) +
-             " rad/s; give the bodies velocities that fit the joint");
+             " rad/s; give the bodies velocities that are consistent with the joint");
 }
 
 JointGuard::JointGuard(const Model& model, Tolerance tolerance, double size_m)
@@ -76,12 +77,13 @@ void JointGuard::check(double time_s, std::size_t joint, const Violation& positi
     return;
   const std::string known = cause ? cause() : "";
   throw ComputationError(
-      "joint '" + model_.joints[joint].name + "' does not hold at " + rounded_text(time_s) +
-      " s: its markers miss each other by " + rounded_text(position.translation) + " m and " +
-      rounded_text(position.rotation) + " rad and part with " + rounded_text(velocity.translation) +
-      " m/s and " + rounded_text(velocity.rotation) + " rad/s, where the run's tolerances allow " +
-      rounded_text(length) + " m, " + rounded_text(angle) + " rad and " + rounded_text(speed) +
-      " m/s; what follows would be wrong. " +
+      "joint '" + model_.joints[joint].name + "' is violated at " + rounded_text(time_s) +
+      " s: its markers are apart by " + rounded_text(position.translation) + " m and " +
+      rounded_text(position.rotation) + " rad and separate with " +
+      rounded_text(velocity.translation) + " m/s and " + rounded_text(velocity.rotation) +
+      " rad/s, where the run's tolerances allow " + rounded_text(length) + " m, " +
+      rounded_text(angle) + " rad and " + rounded_text(speed) +
+      " m/s; further results would be wrong. " +
       (known.empty() ? "The joints may be nearly singular there; smaller tolerances may help"
                      : known));
 }

@@ -72,9 +72,9 @@ void check_inertia(const std::string& who, const Matrix3d& inertia) {
            "no principal moment of inertia may be negative, but they are " + listed + " kg m^2");
   }
   if (moments[2] * (1 - kSlack) > moments[0] + moments[1]) {
-    refuse(who, "no body has the principal moments of inertia " + listed +
-                    " kg m^2: the largest exceeds the sum of the others; are they about the "
-                    "centre of mass and of one unit?");
+    refuse(who, "the principal moments of inertia are physically impossible: " + listed +
+                    " kg m^2, the largest exceeds the sum of the others; check that they are about "
+                    "the centre of mass and in the same unit");
   }
 }
 
@@ -92,11 +92,11 @@ void check_shapes(const std::string& who, const fe_modal::ModalBody& modes) {
                      inv.G0.size() == count && inv.G.size() == count * count &&
                      inv.N.size() == count * count && inv.Maa.rows() == m && inv.Maa.cols() == m;
   if (!sound)
-    refuse(who, "its inertia invariants are not those of " + std::to_string(m) + " modes");
+    refuse(who, "its inertia invariants do not have the sizes for " + std::to_string(m) + " modes");
   for (const fe_modal::Interface& each : modes.interfaces) {
     if (each.translation.cols() != m || each.rotation.cols() != m) {
-      refuse(who,
-             "interface '" + each.name + "' has not the shapes of " + std::to_string(m) + " modes");
+      refuse(who, "interface '" + each.name + "' does not have the shapes of " + std::to_string(m) +
+                      " modes");
     }
     check_finite(who, "interface '" + each.name + "'", each.position_m);
     check_finite(who, "interface '" + each.name + "'", each.translation);
@@ -141,7 +141,7 @@ void check_gaps(const std::string& who, const DeformableBody& deformable) {
   if (gaps.count() == 0 && gaps.coupling.size() == 0) return;
   if (gaps.stiffness.cols() != gaps.count() || gaps.coupling.rows() != gaps.count() ||
       gaps.coupling.cols() != m)
-    refuse(who, "the stiffness and coupling of its gaps do not fit " +
+    refuse(who, "the stiffness and coupling of its gaps do not have the sizes for " +
                     std::to_string(gaps.count()) + " gaps and its modes");
   check_finite(who, "stiffness of its gaps", gaps.stiffness);
   check_finite(who, "coupling of its gaps", gaps.coupling);
@@ -152,7 +152,7 @@ void check_gaps(const std::string& who, const DeformableBody& deformable) {
   if (Eigen::LLT<Eigen::MatrixXd>(all).info() != Eigen::Success)
     refuse(who, "the stiffness of its modes and gaps is not positive definite");
   if (deformable.stress_stiffening)
-    refuse(who, "stress_stiffening is not offered with slits that open and close");
+    refuse(who, "stress_stiffening is not supported with slits that open and close");
 }
 
 void check_kind(const std::string& who, const DeformableBody& deformable) {
@@ -160,12 +160,12 @@ void check_kind(const std::string& who, const DeformableBody& deformable) {
   check_shapes(who, deformable.modes);
   check_invariants(who, deformable.modes.invariants);
   if (!deformable.modes.prestress.empty())
-    refuse(who, "its modes are about the stresses of fixed loads (" + deformable.modes.prestress +
-                    "), which would act twice here; make them without modes.prestress, or take "
+    refuse(who, "its modes are prestressed by fixed loads (" + deformable.modes.prestress +
+                    "), which would act twice here; make the modes without modes.prestress, or use "
                     "stress_stiffening, which follows the loads of the motion");
   if (!deformable.modes.slits.empty())
     refuse(who,
-           "its slits would open and close without contact; their openings must be its gaps "
+           "its slits would open and close without contact; use gap coordinates for their openings "
            "(fe_modal/body/gap_coordinates.h)");
   if (!deformable.modes.frequencies_Hz.allFinite() ||
       !(deformable.modes.frequencies_Hz.array() > 0).all()) {
@@ -216,9 +216,7 @@ void check_body(const Body& body) {
   const bool moves =
       !body.initial_velocity_m_s.isZero(0) || !body.initial_angular_velocity_rad_s.isZero(0);
   if (moves && std::holds_alternative<PrescribedBody>(body.kind)) {
-    refuse(who,
-           "its motion is prescribed: its velocity follows from its motion and cannot be given as "
-           "well");
+    refuse(who, "its motion is prescribed, so that its velocity cannot be given as well");
   }
 }
 
@@ -268,8 +266,8 @@ void check_motors(const Joint& joint) {
         "motor '" + std::find_if(joint.motors.begin(), joint.motors.end(), of)->name + "'";
     if (!has)
       refuse(who, "joint '" + joint.name + "' is " + std::string(joint.kind->name) +
-                      ", and a motor cannot give it " + what);
-    if (count > 1) refuse(who, "joint '" + joint.name + "' has another motor for its " + what);
+                      ", and a motor cannot prescribe its " + what);
+    if (count > 1) refuse(who, "joint '" + joint.name + "' already has a motor for its " + what);
   };
   demand(JointCoordinate::distance, joint.kind->has_distance, "distance");
   demand(JointCoordinate::angle, joint.kind->has_angle, "angle");
@@ -289,8 +287,8 @@ void check_joint(const Joint& joint, const Model& model) {
   }
   if (std::holds_alternative<PrescribedBody>(lower.kind) &&
       std::holds_alternative<PrescribedBody>(upper.kind)) {
-    refuse(who,
-           "it joins '" + lower.name + "' and '" + upper.name + "', whose motions are both given");
+    refuse(who, "it connects '" + lower.name + "' and '" + upper.name +
+                    "', whose motions are both prescribed");
   }
   check_unit_vector(who, "axis", joint.axis);
   check_unit_vector(who, "second axis", joint.second_axis);

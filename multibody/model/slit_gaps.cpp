@@ -41,8 +41,8 @@ VectorXd least_openings(const Eigen::MatrixXd& A, const VectorXd& r) {
       open.erase(found);
     }
   }
-  throw ComputationError("the openings of slits were not found after " +
-                         std::to_string(kMostPivots) + " pivots");
+  throw ComputationError("the openings of the slits did not converge after " +
+                         std::to_string(kMostPivots) + " pivoting steps");
 }
 
 VectorXd SlitGaps::openings_m(const VectorXd& from_rest) const {

@@ -106,7 +106,7 @@ void check_stress_stiffening(const std::string& who, const DeformableBody& body)
   const auto require = [&](bool is_sound, const std::string& what) {
     if (!is_sound)
       throw InputError(who + ": the geometric stiffness " + what +
-                       " is not made of finite symmetric matrices of " + std::to_string(m) +
+                       " does not consist of finite symmetric matrices for " + std::to_string(m) +
                        " modes");
   };
   require(sound(stiffness.acceleration, 3, m), "for accelerations");

@@ -63,12 +63,12 @@ PiecewiseFit::PiecewiseFit(const Function& f, double end_s, const Sampling& samp
   if (!(2 * end_s / resolution_s_ < kMaxSamples))
     throw InputError("its resolution, " + exact_text(resolution_s_) +
                      " s, gives over 1e8 samples over " + exact_text(end_s) +
-                     " s; make solver.resolution longer");
+                     " s; increase solver.resolution");
   for (const double time_s : sampling.breakpoints_s) {
     if (!(time_s > 0 && time_s < end_s)) continue;
     if (!breaks_.empty() && !(time_s > breaks_.back()))
       throw InputError("its breakpoints must increase, but " + exact_text(time_s) +
-                       " s is not behind " + exact_text(breaks_.back()) + " s");
+                       " s is not after " + exact_text(breaks_.back()) + " s");
     breaks_.push_back(time_s);
   }
   std::vector<double> ends = breaks_;
@@ -94,7 +94,7 @@ PiecewiseFit::Grid PiecewiseFit::sampled(double begin_s, double end_s) {
   const double length_s = end_s - begin_s;
   const double count = std::max(kMinSamples, std::ceil(2 * length_s / resolution_s_)) + 1;
   require_memory("a motion sampled at its resolution", count * sizeof(double),
-                 "make solver.resolution longer");
+                 "increase solver.resolution");
   Grid grid{begin_s, end_s, length_s / count, {}};
   std::vector<double>& f = grid.values;
   f.reserve(static_cast<std::size_t>(count) + 1);
@@ -138,8 +138,9 @@ void PiecewiseFit::add_break(double time_s) {
 void PiecewiseFit::add(const Piece& piece) {
   pieces_.push_back(piece);
   if (pieces_.size() > kMaxPieces)
-    refuse_motion(piece.end_s,
-                  "changes too fast to be followed over the run: a million pieces end");
+    refuse_motion(
+        piece.end_s,
+        "changes too fast to be represented over the run: a million polynomial pieces end");
 }
 
 /// Returns the first break inside, or adds pieces up to the end.

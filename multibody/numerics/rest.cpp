@@ -64,7 +64,7 @@ void find_equilibrium(RestProblem& rest, const std::function<void()>& moved) {
     rest.move_to(step);
     if (moved) moved();
   }
-  throw ComputationError("no static equilibrium was found from the poses given, after " +
+  throw ComputationError("no static equilibrium was found from the given poses after " +
                          std::to_string(kMaxIterations) + " steps");
 }
 

@@ -14,7 +14,8 @@ using Series = SmoothMotion::Series;
 
 void check_rows(const std::vector<double>& times_s, const std::vector<double>& values) {
   if (times_s.size() != values.size() || times_s.size() < 4)
-    throw InputError("a table of displacements needs four rows or more, as many times as values");
+    throw InputError(
+        "a table of displacements needs at least four rows with a time and a value each");
   for (std::size_t k = 0; k < times_s.size(); ++k) {
     if (!std::isfinite(values[k])) refuse_motion(times_s[k], "is not a finite number");
     if (k > 0 && !(times_s[k] > times_s[k - 1]))

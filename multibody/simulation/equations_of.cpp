@@ -24,11 +24,11 @@ void check_options(const SolverOptions& solver) {
   check_positive(solver.min_step_s, "the smallest step");
   check_positive(solver.max_step_s, "the largest step");
   if (solver.max_step_s < solver.min_step_s)
-    throw InputError("the largest step must not be below the smallest");
+    throw InputError("the largest step must not be below the smallest step");
   if (!(solver.spectral_radius >= 0 && solver.spectral_radius <= 1))
     throw InputError("the spectral radius must be from 0 to 1, not " +
                      rounded_text(solver.spectral_radius));
-  if (solver.max_steps < 1) throw InputError("the largest number of steps must be positive");
+  if (solver.max_steps < 1) throw InputError("the maximum number of steps must be positive");
 }
 
 }  // namespace
@@ -53,10 +53,9 @@ void check_nothing_turns(const Model& model) {
     if (prescribed == nullptr) continue;
     const PrescribedMotion motion = PrescribedPath(body.initial_pose, *prescribed).at(0);
     if (motion.angular_velocity_rad_s.isZero(0)) continue;
-    throw InputError(
-        "body '" + body.name +
-        "' turns at time zero; a start from equilibrium needs prescribed bodies that do "
-        "not turn then");
+    throw InputError("body '" + body.name +
+                     "' rotates at time zero; a start from equilibrium needs prescribed bodies "
+                     "that do not rotate at that time");
   }
 }
 

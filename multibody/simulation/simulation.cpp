@@ -21,10 +21,10 @@ void check_outputs(const OutputOptions& output) {
     if (!(value > 0 && std::isfinite(value)))
       throw InputError(std::string(what) + " must be positive, not " + exact_text(value));
   if (!(output.begin_time_s < output.end_time_s))
-    throw InputError("the end time must be behind the start, " + exact_text(output.begin_time_s) +
-                     " s");
+    throw InputError("the end time must be after the start time, " +
+                     exact_text(output.begin_time_s) + " s");
   if ((output.end_time_s - output.begin_time_s) / output.interval_s > 1e8)
-    throw InputError("the output interval gives over 1e8 output times; make it longer");
+    throw InputError("the output interval gives over 1e8 output times; increase it");
 }
 
 /// Checks that a whole history, with the data derived from it, fits into memory. Few outputs always
@@ -37,7 +37,7 @@ void check_memory(const Model& model, const OutputOptions& output) {
   require_memory("the history of " + std::to_string(count) + " outputs",
                  kCopies * sizeof(double) * static_cast<double>(count) *
                      static_cast<double>(numbers_per_output(model)),
-                 "make the output interval longer");
+                 "increase the output interval");
 }
 
 }  // namespace
@@ -66,8 +66,8 @@ History settle(const Model& model, const SolverOptions& solver, const OutputOpti
   for (const Section& section : model.forces.of<Section>())
     if (section.has_friction())
       throw InputError(title(section) +
-                       ": a quasi-static run has no friction in slits, which depends on the way to "
-                       "a place; take a slow run in time, or no friction");
+                       ": a quasi-static run cannot have friction in slits, which depends on the "
+                       "path of the motion; use a slow dynamic run, or no friction");
   check_start(model, solver);
   check_outputs(output);
   check_memory(model, output);

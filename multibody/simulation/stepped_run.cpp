@@ -63,18 +63,20 @@ std::vector<RunInput> inputs_of(const Model& model) {
   std::vector<RunInput> inputs;
   each_prescribed(model, [&](const Body& body, const PrescribedBody&) {
     inputs.push_back({"body." + body.name + ".acceleration", "m/s^2",
-                      "Along the body's direction, besides its own motion"});
-    inputs.push_back({"body." + body.name + ".angular_acceleration", "rad/s^2",
-                      "About the body's axis of rotation, besides its own motion"});
+                      "Acceleration along the body's direction, in addition to its own motion"});
+    inputs.push_back(
+        {"body." + body.name + ".angular_acceleration", "rad/s^2",
+         "Angular acceleration about the body's axis of rotation, in addition to its own motion"});
   });
   each_motor(model, [&](const Joint& joint, const JointMotor& motor) {
     const bool slides = motor.coordinate == JointCoordinate::distance;
-    inputs.push_back({"joint." + joint.name + (slides ? ".acceleration" : ".angular_acceleration"),
-                      slides ? "m/s^2" : "rad/s^2",
-                      "Of the joint's motor '" + motor.name + "', besides its own motion"});
+    inputs.push_back(
+        {"joint." + joint.name + (slides ? ".acceleration" : ".angular_acceleration"),
+         slides ? "m/s^2" : "rad/s^2",
+         "Acceleration of the joint's motor '" + motor.name + "', in addition to its own motion"});
   });
   each_load(model, [&](const std::string& name, const std::string& unit, const double&) {
-    inputs.push_back({name + ".magnitude", unit, "Besides its own magnitude"});
+    inputs.push_back({name + ".magnitude", unit, "Load in addition to its own magnitude"});
   });
   return inputs;
 }
@@ -189,8 +191,8 @@ void SteppedRun::integrate(double end_s, const GoesOn& goes_on) {
     integrator->restart();
     while (!is_ended && integrator->time_s() < end) {
       if (integrator->accepted() + integrator->rejected() >= solver_.max_steps)
-        throw ComputationError("the run was given up after " + std::to_string(solver_.max_steps) +
-                               " steps; what limits them is the " +
+        throw ComputationError("the run was stopped after " + std::to_string(solver_.max_steps) +
+                               " steps; the step size is limited by the " +
                                integrator->name_of(integrator->limiting_component()));
       integrator->step(ends.limit_s(integrator->time_s(), end));
       guards.check(*integrator);
@@ -252,7 +254,7 @@ History SteppedRun::recorded() {
 void SteppedRun::restore(const State& state) {
   if (state.y.size() != state_.y.size() || state.inputs.size() != state_.inputs.size() ||
       state.motions.size() != state_.motions.size() || state.angles.size() != state_.angles.size())
-    throw InputError("the state is one of another model");
+    throw InputError("the state belongs to another model");
   state_ = state;
   is_changed_ = true;
   start_in_turns();

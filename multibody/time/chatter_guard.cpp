@@ -56,11 +56,11 @@ void ChatterGuard::check(const TimeIntegrator& integrator) {
   if (chatters < now_.size() && jumps(integrator, chatters)) {
     constexpr int kDigits = 9;
     throw ComputationError(
-        name_of(chatters) + " jumps back and forth at " +
+        name_of(chatters) + " switches back and forth at " +
         rounded_text(integrator.time_s(), kDigits) +
-        " s, so that no step gets on: both sides of the jump lead back to it, as of friction "
-        "written as the sign of a velocity; make it continuous, such as F * tanh(vx / v0) "
-        "with a small v0, or take a [[resistance]] with friction and full_rate");
+        " s, so that the run cannot continue: both sides of the jump lead back to it, as for "
+        "friction written as the sign of a velocity; make it continuous, such as F * tanh(vx / v0) "
+        "with a small v0, or use a [[resistance]] with friction and full_rate");
   }
   if (chatters < now_.size() || ++steps_ == kSteps) {
     std::fill(turn_overs_.begin(), turn_overs_.end(), 0);

@@ -55,13 +55,13 @@ class LimitCounter {
       case StepReason::error:
         return "error: " + integrator.name_of(index);
       case StepReason::largest_step:
-        return "the largest step allowed";
+        return "the maximum step size";
       case StepReason::end:
         return "a kink of a table, a piece of a motion or the end of the run";
       case StepReason::event:
         return "event: " + integrator.name_of_event(index);
       case StepReason::load:
-        return "a load given by a function, which changes fast";
+        return "fast changes of a load that is given by a function";
       case StepReason::iteration:
         break;
     }
@@ -131,9 +131,9 @@ class Run {
     statistics.limits = limits_.take(*integrator_);
   }
   [[noreturn]] void give_up() const {
-    throw ComputationError("the run was given up at " + rounded_text(integrator_->time_s()) +
+    throw ComputationError("the run was stopped at " + rounded_text(integrator_->time_s()) +
                            " s after " + std::to_string(max_steps_) +
-                           " steps; what limits them is the " +
+                           " steps; the step size is limited by the " +
                            integrator_->name_of(integrator_->limiting_component()));
   }
 
@@ -219,9 +219,9 @@ void check_motions_reach(const Model& model, double end_s) {
   constexpr double kRounding = 1e-9;
   each_function_of_time(model, [&](const SmoothMotion& motion) {
     if (!motion.is_none() && end_s > motion.end_s() * (1 + kRounding))
-      throw InputError("the motions that are given over time end at " + exact_text(motion.end_s()) +
+      throw InputError("the prescribed motions end at " + exact_text(motion.end_s()) +
                        " s, before " + exact_text(end_s) +
-                       " s; make the model with a longer end_time");
+                       " s; make the model with a later end_time");
   });
 }
 

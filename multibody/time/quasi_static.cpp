@@ -170,15 +170,15 @@ std::string SnapSearch::motion_text(const Place& begin, const Place& end) {
   }
   constexpr int kDigitsOfTime = 5;
   return rounded_text(end.time_s, kDigitsOfTime) + " s: '" + name + "' moves by " +
-         rounded_text(largest_m, 3) + " m while the load hardly does";
+         rounded_text(largest_m, 3) + " m while the load hardly changes";
 }
 
 std::vector<std::string> SnapSearch::warnings() const {
   if (jumps_ == 0) return {};
   return {"the equilibrium jumps at " + first_ +
           (jumps_ == 1 ? "" : ", the first of " + std::to_string(jumps_) + " jumps") +
-          "; behind it the quasi-static run is at one of several equilibria, perhaps not at that "
-          "of the motion: analysis = \"motion\" tells"};
+          "; after it, the quasi-static run is at one of several equilibria, which may differ from "
+          "that of the motion; check with analysis = \"motion\""};
 }
 
 /// The largest angle by which a prescribed body or a motor rotates from one time to another.

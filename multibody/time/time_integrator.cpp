@@ -11,9 +11,9 @@ namespace flexneck::multibody {
 void TimeIntegrator::collapse(const ErrorEstimate& error) const {
   constexpr int kDigits = 9;
   throw ComputationError("the step size fell below " + rounded_text(limits_.smallest_s, kDigits) +
-                         " s at " + rounded_text(time_s_, kDigits) + " s; what limits it is the " +
+                         " s at " + rounded_text(time_s_, kDigits) + " s; it is limited by the " +
                          name_of(error.component) +
-                         (std::isfinite(error.value) ? "" : ", which is not a number"));
+                         (std::isfinite(error.value) ? "" : ", which is not a finite number"));
 }
 
 }  // namespace flexneck::multibody

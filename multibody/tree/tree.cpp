@@ -124,16 +124,15 @@ Tree::Tree(const Model& of)
   const Walk walked = walk(model);
   if (walked.unsuited_joint) {
     const Joint& joint = model.joints[*walked.unsuited_joint];
-    throw InputError("joint '" + joint.name + "' " +
-                     (joint.motors.empty() ? "is of the kind " + std::string(joint.kind->name)
-                                           : "has the motor '" + joint.motors[0].name + "'") +
-                     ", which the recursive formulation does not treat; use the descriptor "
-                     "formulation");
+    throw InputError(
+        "joint '" + joint.name + "' " +
+        (joint.motors.empty() ? "is of the kind " + std::string(joint.kind->name)
+                              : "has the motor '" + joint.motors[0].name + "'") +
+        ", which the recursive formulation does not support; use the descriptor formulation");
   }
   if (walked.closing_joint)
     throw InputError("joint '" + model.joints[*walked.closing_joint].name +
-                     "' closes a loop of joints, which the recursive "
-                     "formulation does not treat; "
+                     "' closes a loop of joints, which the recursive formulation does not support; "
                      "use the descriptor formulation");
   std::vector<Carrier> carriers(model.bodies.size());
   std::vector<bool> turning;  // flag of each prescribed body

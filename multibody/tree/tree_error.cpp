@@ -74,7 +74,7 @@ ErrorEstimate TreeError::operator()(const VectorXd& begin, const VectorXd& end,
 }
 
 std::string TreeError::name_of(std::size_t component) const {
-  if (tree_.bodies.empty()) return "work, as no body is free";
+  if (tree_.bodies.empty()) return "work (no body is free)";
   const std::size_t of_bodies = tree_.bodies.size() * kParts;
   if (component >= of_bodies) return name_of_branch(tree_.model.forces, component - of_bodies);
   const TreeBody& body = tree_.bodies[component / kParts];

@@ -68,7 +68,8 @@ std::string loaded_text(const fe_modal::ModalBody& body, bool with_counts) {
       text += fmt::format(" {:.3f}", frequency);
     text += " Hz";
     const std::string study = with_counts ? mode_count_table(body, attached) : "";
-    if (!study.empty()) text += "\nThe same from modes, and how far off\n" + study;
+    if (!study.empty())
+      text += "\nFrequencies from the modes of the body, with their errors\n" + study;
   }
   return text;
 }

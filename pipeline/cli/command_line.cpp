@@ -23,7 +23,7 @@ void add_setting(CLI::App& app, CommandLine& line, const char* name, const char*
   app.add_option_function<std::string>(
          name,
          [&line, key](const std::string& value) { line.settings.push_back(key + "=" + value); },
-         help + "; as --set " + key)
+         help + "; same as --set " + key)
       ->option_text(label);
 }
 
@@ -33,29 +33,32 @@ void add_folder(CLI::App& app, CommandLine& line) {
 
 void add_optional_folder(CLI::App& app, CommandLine& line) {
   line.folder.clear();
-  app.add_option("-o,--out,--output", line.folder, "Folder for a JSON file of the result")
+  app.add_option("-o,--out,--output", line.folder,
+                 "Folder in which the result is written as a JSON file (default: none)")
       ->option_text("DIR")
       ->check([](const std::string& name) { return name.empty() ? "expected a folder" : ""; });
 }
 
 void add_settings(CLI::App& app, CommandLine& line) {
-  app.add_option("--set", line.settings, "Use another value, e.g. modes.count=12")
+  app.add_option("--set", line.settings, "Set a key of the study or model, e.g. modes.count=12")
       ->option_text("KEY=VALUE ...")
       ->allow_extra_args(false);
 }
 
 void add_mesh_settings(CLI::App& app, CommandLine& line) {
-  add_setting(app, line, "--preset", "NAME", "mesh.preset", "Mesh divisions: default or paper");
+  add_setting(app, line, "--preset", "NAME", "mesh.preset",
+              "Preset of the mesh divisions: default or paper");
   add_setting(app, line, "--refine", "N", "mesh.refine",
-              "Cut every element in N + 1 in each direction");
+              "Subdivide every element into N + 1 in each direction");
 }
 
 void add_modes_settings(CLI::App& app, CommandLine& line) {
   app.add_flag_function(
       "--check",
       [&line](std::int64_t /*times*/) { line.settings.emplace_back("modes.check=true"); },
-      "Check that no mode is missing, estimate the mesh's error");
-  add_setting(app, line, "--solver", "NAME", "modes.solver", "cholmod in one process, or mumps");
+      "Check that no mode is missing, and estimate the discretisation error");
+  add_setting(app, line, "--solver", "NAME", "modes.solver",
+              "Linear solver: automatic, cholmod (one process only) or mumps");
 }
 
 /// List of the names in TOML syntax.
@@ -71,33 +74,35 @@ void add_cases(CLI::App& app, CommandLine& line) {
          [&line](const std::vector<std::string>& names) {
            line.settings.push_back("cases=" + list_of(names));
          },
-         "Run this case only, and others so named; as --set cases")
+         "Run only this case; may be repeated, and NAME may end in *; same as --set cases")
       ->option_text("NAME ...")
       ->allow_extra_args(false);
 }
 
 void add_sensitivity(CLI::App& app, CommandLine& line) {
   app.add_flag("--sensitivity", line.sensitivity,
-               "Derivatives by all dimensions and material constants");
+               "Compute sensitivities to all dimensions and material constants");
 }
 
 void add_redo(CLI::App& app, CommandLine& line) {
-  app.add_flag("--force", line.redo, "Redo what has not changed, too");
+  app.add_flag("--force", line.redo, "Run all stages again, even if their inputs have not changed");
 }
 
 void add_keep(CLI::App& app, CommandLine& line) {
   app.add_flag("--keep", line.keep,
-               "The folder keeps this study and these values for the commands to come");
+               "Store this study and these values in the results folder for later commands");
 }
 
 void add_show(CLI::App& app, CommandLine& line) {
-  app.add_flag("--dry-run,--show", line.show, "Print dimensions and a section, mesh nothing");
+  app.add_flag("--dry-run,--show", line.show,
+               "Print the dimensions and a section of the neck without meshing");
 }
 
 void add_target(CLI::App& app, CommandLine& line) {
-  app.add_option("--to", line.target, "File to write; of ISO-MME TEST/TEST.mme")
+  app.add_option("--to", line.target,
+                 "File to write; its extension sets the format (for an ISO-MME test TEST/TEST.mme)")
       ->option_text("FILE");
-  app.add_flag("--binary", line.is_binary, "A .msh in bytes instead of text");
+  app.add_flag("--binary", line.is_binary, "Write a binary instead of a text .msh file");
 }
 
 void add_curves(CLI::App& app, CommandLine& line) {
@@ -106,12 +111,13 @@ void add_curves(CLI::App& app, CommandLine& line) {
     app.add_option(name, value, help)->option_text(label);
   };
   add("--channel", curves.channel, "NAME",
-      "Column of both files, where there are several; of ISO-MME the code");
+      "Column to rate, if the files have several; for ISO-MME tests the channel code");
   add("--reference-channel", curves.reference_channel, "NAME",
-      "Column of the reference, where its name is another one");
-  add("--unit", curves.unit, "UNIT", "Of the values in a file that names no units");
-  add("--from", curves.from, "TIME", "Rate from there on, e.g. '20 ms'; else what both cover");
-  add("--to", curves.to, "TIME", "Rate up to there");
+      "Column of the reference file, if its name differs");
+  add("--unit", curves.unit, "UNIT", "Unit of the values of a file that gives no units");
+  add("--from", curves.from, "TIME",
+      "Start of the rated interval, e.g. '20 ms' (default: start of the common interval)");
+  add("--to", curves.to, "TIME", "End of the rated interval (default: end of the common interval)");
 }
 
 void add_neck_loads(CLI::App& app, CommandLine& line) {
@@ -122,18 +128,19 @@ void add_neck_loads(CLI::App& app, CommandLine& line) {
   add("--force", loads.force, "NAME", "Column of the axial force, tension positive")->required();
   add("--moment", loads.moment, "NAME", "Column of the moment My, flexion positive")->required();
   add("--shear", loads.shear, "NAME",
-      "Column of Fx, if the moment is that of a load cell above the condyles");
-  add("--dummy", loads.dummy, "NAME [50th-male]", "50th-male or 5th-female");
+      "Column of the shear force Fx, if My was measured by a load cell above the condyles");
+  add("--dummy", loads.dummy, "NAME [50th-male]",
+      "Dummy that the intercepts apply to: 50th-male or 5th-female");
 }
 
 void add_shards(CLI::App& app, CommandLine& line) {
-  app.add_option("--shard", line.shares.shard, "Compute a part of the rows only, e.g. 2/8")
+  app.add_option("--shard", line.shares.shard, "Compute only part I of N of the rows, e.g. 2/8")
       ->option_text("I/N");
 }
 
 void add_threads(CLI::App& app, CommandLine& line) {
   app.add_option("--threads", line.shares.threads,
-                 "At most; as many as processors if not given, one a rank")
+                 "Maximum number of threads (default: all cores, 1 per MPI rank)")
       ->option_text("N")
       ->check(CLI::Range(1, 1024));
 }
@@ -167,7 +174,7 @@ void describe(CLI::App& app, const Command& command, CommandLine& line) {
   }
   CLI::Option* const quiet =
       app.add_flag("-q,--quiet", line.is_quiet, "Print errors and warnings only");
-  app.add_flag("-v,--verbose", line.is_verbose, "Print all tables, and what each stage does")
+  app.add_flag("-v,--verbose", line.is_verbose, "Print all tables and the progress of each stage")
       ->excludes(quiet);
 }
 
@@ -176,9 +183,9 @@ std::string help() {
   for (const Command& command : commands())
     text += fmt::format("  {:<10}  {}\n", command.name, command.help);
   return text +
-         "\n'flexneck COMMAND --help' lists the options of a command.\n"
-         "'flexneck --version' tells the version and the sources that it is built from,\n"
-         "'flexneck --man' and 'flexneck --bash-completion' print what their names say.\n" +
+         "\n'flexneck COMMAND --help' lists the options of a command.\n'flexneck --version' prints "
+         "the version and the commit that the program was built from.\n'flexneck --man' prints a "
+         "manual page, 'flexneck --bash-completion' a bash completion script.\n" +
          kExitCodes;
 }
 
@@ -215,7 +222,7 @@ std::string near_option(const Command& command, const std::vector<std::string>& 
     if (!option.starts_with('-') || app.get_option_no_throw(option) != nullptr) continue;
     const std::string owners = owners_of(option);
     if (owners.empty()) continue;
-    throw InputError(option + " belongs to the command " + owners + ", found with '" +
+    throw InputError(option + " is an option of the command " + owners + ", not of '" +
                      command.name + "'");
   }
   throw InputError(command.name + ": " + problem + near_option(command, words) + "; 'flexneck " +
@@ -250,8 +257,8 @@ std::size_t place_of_command(const std::vector<std::string>& words) {
   for (const std::string& word : words)
     for (const Command& command : commands())
       if (command.name == word) name = word;
-  throw InputError("the command comes first: 'flexneck " + name +
-                   "', then its options; 'flexneck --help' lists the commands");
+  throw InputError("the command must precede its options and files: 'flexneck " + name +
+                   "' followed by its options; 'flexneck --help' lists the commands");
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ void show(const Console& console, ResultTable table) {
   const std::size_t rows = table.rows.size();
   if (!console.is_verbose() && rows > kMaxRows) {
     table.rows.resize(kMaxRows);
-    table.notes = {"and " + std::to_string(rows - kMaxRows) + " rows more (--verbose)"};
+    table.notes = {"and " + std::to_string(rows - kMaxRows) + " more rows (--verbose)"};
   }
   console.result("\n" + printed(table));
 }
@@ -53,7 +53,8 @@ void show(const Console& console, ResultTable table) {
 
 bool compare_command(const FileInput& input) {
   if (input.files.size() < 2) {
-    throw InputError("compare: name at least two folders of results, 'flexneck compare out other'");
+    throw InputError(
+        "compare: expected at least two folders of results, as in 'flexneck compare out other'");
   }
   for (const fs::path& folder : input.files)
     if (!fs::is_directory(folder)) throw InputError(folder.string() + ": no such folder");
@@ -67,8 +68,9 @@ bool compare_command(const FileInput& input) {
     for (const std::string& warning : results.warnings)
       input.console.warning(studies.back().label + ": " + warning);
     if (const std::size_t count = results.run_warnings.size(); count > 0)
-      input.console.warning(fmt::format("{}: its runs have {} warning{}, which the page shows",
-                                        studies.back().label, count, count == 1 ? "" : "s"));
+      input.console.warning(
+          fmt::format("{}: the runs have {} warning{}, which are shown on the page",
+                      studies.back().label, count, count == 1 ? "" : "s"));
   }
   input.folder.make();
   const std::vector<ResultTable> tables = compared_tables(studies);

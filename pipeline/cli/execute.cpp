@@ -39,8 +39,8 @@ StudyChoice choose_study(const CommandLine& line, const Console& console) {
   const std::optional<StudyChoice> kept = remembered_study(line.folder);
   if (!kept && holds_results(line.folder))
     throw InputError(line.folder.string() +
-                     ": study.json, which says what study the results there are of, is missing; "
-                     "name the study");
+                     ": study.json, which records the study of these results, is missing; name the "
+                     "study on the command line");
   if (!kept) return choice;
   const StudyChoice given = choice;
   choice = with_settings(*kept, line.settings);
@@ -79,8 +79,7 @@ Study read_together(const CommandLine& line, const Console& console, const Ranks
   ranks.together([&] {
     if (hash != of_first)
       throw InputError(study->file.string() + ": rank " + std::to_string(ranks.own()) +
-                       " reads other values than the first one: take a folder that all ranks "
-                       "share");
+                       " reads other values than rank 0; use a folder that all ranks share");
   });
   return std::move(*study);
 }
@@ -95,8 +94,9 @@ void remember(const CommandLine& line, const Console& console, const StudyChoice
     return;
   }
   const std::string given = line.files.empty() ? text_of_settings(line.settings) : text_of(choice);
-  console.result("\nFor this command alone: " + given + "; with --keep for those to come in " +
-                 line.folder.string() + ", too");
+  console.result("\nOnly for this command: " + given +
+                 "; add --keep to store it for later commands in " + line.folder.string() +
+                 ", too");
 }
 
 bool works_on_files(const CommandLine& line) {
@@ -130,7 +130,7 @@ bool do_command(const CommandLine& line, const Console& console, Ranks ranks,
   study.solver.checkpoint = console.checkpoint();
   if (ranks.are_many() && (line.show || !command.uses_ranks)) {
     if (!is_first) return true;
-    console.step("Only modes are computed on many ranks: '" + command.name + "' runs on the first");
+    console.step("Only modes are computed on several ranks; '" + command.name + "' runs on rank 0");
     ranks = {};
   }
   const bool is_remembered = is_first && command.writes_results && command.is_remembered;

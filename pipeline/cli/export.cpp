@@ -26,15 +26,16 @@ bool any(const ExportFormat& /*format*/) { return true; }
 
 const ExportFormat& format_of(const std::filesystem::path& target, bool is_binary) {
   if (target.empty())
-    throw InputError("export: name the file to write, --to FILE with an ending of " + offered(any));
+    throw InputError("export: expected --to FILE with one of the extensions " + offered(any));
   const auto formats = export_formats();
   const auto found = std::find_if(formats.begin(), formats.end(), [&](const ExportFormat& format) {
     return target.extension() == format.ending;
   });
   if (found == formats.end())
-    throw InputError(target.string() + ": expected a file with an ending of " + offered(any));
+    throw InputError(target.string() + ": expected a file with one of the extensions " +
+                     offered(any));
   if (is_binary && !found->may_be_binary)
-    throw InputError(target.string() + ": --binary has no meaning for a " +
+    throw InputError(target.string() + ": --binary has no effect on a file of type " +
                      std::string(found->ending));
   return *found;
 }
@@ -44,14 +45,14 @@ const ExportFormat& format_of(const std::filesystem::path& target, bool is_binar
 bool export_file_command(const FileInput& input) {
   const ExportFormat& format = format_of(input.target, input.is_binary);
   if (format.write_file == nullptr)
-    throw InputError(input.target.string() + ": expected an ending of " +
+    throw InputError(input.target.string() + ": expected one of the extensions " +
                      offered([](const ExportFormat& each) { return each.write_file != nullptr; }) +
-                     " for the file " + input.files.front().string() +
-                     "; other files are of a study's mesh");
+                     " for an export of the file " + input.files.front().string() +
+                     "; other formats are written from the mesh of a study");
   if (input.files.size() != 1)
     throw InputError("export: expected one file, found '" + input.files[1].string() + "' too");
   if (!input.settings.empty() && !format.takes_settings)
-    throw InputError("--set: has no meaning for a file, which is exported as it is");
+    throw InputError("--set: has no effect on the export of a file, which is exported as it is");
   input.console.step("Writing " + input.target.string());
   format.write_file(input);
   return true;
@@ -62,7 +63,7 @@ bool export_command(const CommandInput& input) {
   const ExportFormat& format = format_of(target, input.is_binary);
   if (format.write == nullptr)
     throw InputError(target.string() +
-                     ": name the file that holds it, as in 'flexneck export FILE --to " +
+                     ": name the file to export, as in 'flexneck export FILE --to " +
                      target.string() + "'");
   mesher::MeshFile mesh = read_mesh(input.folder.mesh());
   require_same_inputs(input.folder.mesh(), mesh.provenance, input.study, mesh_values(input.study),

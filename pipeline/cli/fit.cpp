@@ -73,7 +73,7 @@ void draw(const CommandInput& input, StudyFit& fit, const FitResult& result) {
     input.console.result(
         fmt::format("Pictures: {} of fit-*.svg in {}", names.size(), input.folder.path().string()));
   } catch (const InputError& error) {
-    input.console.warning(std::string("no pictures of the fit: ") + error.what());
+    input.console.warning(std::string("the pictures of the fit cannot be drawn: ") + error.what());
   }
 }
 
@@ -90,7 +90,7 @@ bool fit_command(const CommandInput& input) {
   StudyFit fit(evaluator, std::move(section), std::max(1U, threads / starts));
   const std::filesystem::path& results = input.folder.path();
   input.console.step(
-      fmt::format("Fit of {}: parameters: {}, targets: {}, starts: {}; slopes {}; threads: {}",
+      fmt::format("Fit of {}: parameters: {}, targets: {}, starts: {}; derivatives {}; threads: {}",
                   input.study.file.string(), fit.section().parameters.size(), fit.targets().size(),
                   starts, fit.slopes_text(), threads));
   FitJob job(fit, results, targets, threads, &Interrupt::is_asked());
@@ -98,8 +98,9 @@ bool fit_command(const CommandInput& input) {
   try {
     result = job.run([&](const std::string& line) { input.console.step(line); });
   } catch (const FitStopped&) {
-    throw ComputationError("stopped: what is done is kept in " + FitJob::folder(results).string() +
-                           "; the same command goes on with the rest");
+    throw ComputationError("stopped; completed fits are kept in " +
+                           FitJob::folder(results).string() +
+                           "; run the same command again to continue");
   }
   const std::vector<ResultTable> tables = fit_tables(fit, result);
   write_tables(input.folder.file("fit.json"), tables, provenance_of_fit(input.study, job));

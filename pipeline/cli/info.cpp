@@ -35,12 +35,12 @@ namespace fs = std::filesystem;
 struct Ending {
   std::string_view ending, what;
 };
-constexpr std::array<Ending, 7> kEndings = {{{".csv", "curves or a table as text"},
-                                             {".html", "page for a browser"},
+constexpr std::array<Ending, 7> kEndings = {{{".csv", "curves or table"},
+                                             {".html", "HTML page"},
                                              {".json", "tables"},
                                              {".png", "picture"},
                                              {".svg", "picture"},
-                                             {".xdmf", "for ParaView"},
+                                             {".xdmf", "view for ParaView"},
                                              {".toml", "study or model"}}};
 
 /// Description of a file; empty for a file of another program.
@@ -49,7 +49,7 @@ std::string what_is(const fs::path& path) {
     try {
       return format_of(ReadableFile(path).path());
     } catch (const InputError&) {
-      return "damaged, or of another program";
+      return "damaged, or made by another program";
     }
   }
   for (const Ending& each : kEndings)
@@ -89,7 +89,7 @@ std::string verdict_of(const fs::path& file) {
   };
   const auto passed = count(VerificationRow::Status::passed);
   const auto judged = passed + count(VerificationRow::Status::failed);
-  return judged == 0 ? "\nVerification: nothing is judged"
+  return judged == 0 ? "\nVerification: no figure has a verdict"
                      : fmt::format("\nVerification against {} figures: {} of {} agree",
                                    table.reference_origins, passed, judged);
 }
@@ -111,9 +111,9 @@ std::string folder_text(const fs::path& folder) {
   const std::optional<StudyChoice> choice = remembered_study(folder);
   if (!is_ours && !choice)
     throw InputError(folder.string() +
-                     ": expected a folder of results, found none of flexneck's files in it; "
-                     "'flexneck run -o " +
-                     folder.string() + "' makes them");
+                     ": expected a folder of results, found no result files of flexneck; create "
+                     "them with 'flexneck run -o " +
+                     folder.string() + "'");
   std::sort(rows.begin() + 1, rows.end(),
             [](const auto& a, const auto& b) { return comes_before(a.front(), b.front()); });
   return folder.string() + ": " +
@@ -130,9 +130,9 @@ namespace {
 
 /// Text of a file's provenance: program, files, libraries and values.
 std::string provenance_text(const Provenance& provenance) {
-  if (provenance.program.empty()) return "\nMade by another program, which it does not name";
+  if (provenance.program.empty()) return "\nMade by an unknown program";
   std::string text =
-      fmt::format("\nMade by {}, sources {}, from", provenance.program, provenance.git_hash);
+      fmt::format("\nMade by {}, commit {}, from", provenance.program, provenance.git_hash);
   for (const InputFile& input : provenance.inputs) text += "\n  " + input.name + "  " + input.hash;
   for (const auto& [name, version] : provenance.libraries) text += "\n  " + name + " " + version;
   if (provenance.parameters.empty()) return text;
@@ -186,7 +186,7 @@ std::string describe_history(const fs::path& path) {
   const Eigen::VectorXd& times_s = file.history.time_s;
   std::string text = run_summary(file.history);
   if (times_s.size() > 0)
-    text += fmt::format("\n{} times from {:.4g} to {:.4g} s", times_s.size(), times_s[0],
+    text += fmt::format("\n{} output times from {:.4g} to {:.4g} s", times_s.size(), times_s[0],
                         times_s[times_s.size() - 1]);
   if (file.linearisation) text += "\n" + mode_summary(*file.linearisation);
   if (!file.channels.empty()) {
@@ -231,9 +231,8 @@ std::string describe_verification(const fs::path& path) {
 /// it.
 std::string described_format(const fs::path& path, const std::string& format) {
   if (format.empty()) return {};
-  return format + (trust_of(path) == Trust::verified
-                       ? ", verified: it is as it was written"
-                       : ", not verified: it has no hash to tell whether it is as it was written");
+  return format + (trust_of(path) == Trust::verified ? ", verified: unchanged since it was written"
+                                                     : ", not verified: it contains no hash");
 }
 
 struct Kind {
@@ -251,7 +250,7 @@ constexpr std::array<Kind, 5> kKinds = {{{kSweepFormat.name, describe_sweep},
 
 bool info_command(const FileInput& input) {
   if (input.files.empty())
-    throw InputError("info: name a file or a folder of results, 'flexneck info out'");
+    throw InputError("info: expected a file or a folder of results, as in 'flexneck info out'");
   for (const fs::path& path : input.files) {
     if (fs::is_directory(path)) {
       input.console.result(folder_text(path));
@@ -272,9 +271,8 @@ bool info_command(const FileInput& input) {
     if (text.empty() && is_json) text = describe_verification(path);
     if (text.empty()) {
       throw InputError(path.string() +
-                       ": expected a mesh, modes, stresses, a history, a sweep, tables or a "
-                       "verification of flexneck, "
-                       "found another kind of file");
+                       ": expected a file of flexneck with a mesh, modes, stresses, a history, a "
+                       "sweep, tables or a verification, found another kind of file");
     }
     input.console.result(path.string() + ": " + described_format(path, format) + "\n" + text);
   }

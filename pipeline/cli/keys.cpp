@@ -24,11 +24,11 @@ struct Format {
 
 const std::array<Format, 5>& formats() {
   static const std::array<Format, 5> all = {{
-      {"study", "Studies: what is meshed, its modes and experiments with them", study_keys},
+      {"study", "Studies: geometry, mesh, modes and experiments", study_keys},
       {"model", "Models for 'flexneck simulate'", model_keys},
       {"reference", "Published figures that results are compared with", reference_keys},
-      {"context", "What the report says of the paper beside its figures", context_keys},
-      {"regulation", "Certification tests by regulations", regulation_keys},
+      {"context", "Remarks on the paper for the report", context_keys},
+      {"regulation", "Certification tests of regulations", regulation_keys},
   }};
   return all;
 }
@@ -59,7 +59,8 @@ std::string reference_of(const std::string& path) {
     dot = rest.find('.');
     const Key& key = key_named(keys, rest.substr(0, dot));
     if (dot == std::string::npos) return key.keys.empty() ? key_text(key) : table_text(inside, key);
-    if (key.keys.empty()) throw InputError(path + ": '" + std::string(key.name) + "' is no table");
+    if (key.keys.empty())
+      throw InputError(path + ": '" + std::string(key.name) + "' is a key, not a table");
     keys = key.keys;
     rest = rest.substr(dot + 1);
   }
@@ -70,7 +71,7 @@ std::string reference_of(const std::string& path) {
 bool keys_command(const FileInput& input) {
   if (input.files.empty()) {
     for (const Format& format : formats()) input.console.result(format_text(format));
-    input.console.result("'flexneck keys study.case' tells the keys of a table");
+    input.console.result("'flexneck keys study.case' lists the keys of a table");
   }
   for (const std::filesystem::path& path : input.files)
     input.console.result(reference_of(path.string()));

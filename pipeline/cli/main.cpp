@@ -36,7 +36,7 @@ using flexneck::fe_modal::RankSession;
 
 /// Message if there is not enough memory to compose another.
 constexpr const char* kNoMemory =
-    "memory runs out: give the command more, or take a coarser mesh or a smaller model";
+    "out of memory; provide more memory, or use a coarser mesh or a smaller model";
 constexpr int kVerificationFailed = 1;
 constexpr int kUnusableInput = 2;
 constexpr int kComputationFailed = 3;
@@ -59,8 +59,7 @@ Failure failure(const std::string& doing) {
   } catch (const InputError& error) {
     return {kUnusableInput, error.what()};
   } catch (const std::bad_alloc&) {
-    constexpr const char* kAdvice =
-        "give the command more, or take a coarser mesh or a smaller model";
+    constexpr const char* kAdvice = "provide more memory, or use a coarser mesh or a smaller model";
     return {kComputationFailed, flexneck::out_of_memory(doing, kAdvice).what()};
   } catch (const std::filesystem::filesystem_error& error) {
     return {flexneck::is_of_path(error) ? kUnusableInput : kComputationFailed,
@@ -68,7 +67,7 @@ Failure failure(const std::string& doing) {
   } catch (const std::exception& error) {
     return {kComputationFailed, error.what()};
   } catch (...) {
-    return {kComputationFailed, "failed for an unknown reason"};
+    return {kComputationFailed, "failed with an unknown error"};
   }
 }
 
@@ -95,8 +94,9 @@ void require_same_command(const std::vector<std::string>& words, const Ranks& ra
   const std::uint64_t of_first = ranks.of_first(hash);
   ranks.together([&] {
     if (hash != of_first)
-      throw InputError("rank " + std::to_string(ranks.own()) + " was given '" + text +
-                       "', the first one another command line: all take the same");
+      throw InputError(
+          "rank " + std::to_string(ranks.own()) + " was given the command line '" + text +
+          "', which differs from that of rank 0; start all ranks with the same command line");
   });
 }
 
@@ -136,11 +136,11 @@ std::optional<CommandLine> line_of_shard(const std::vector<std::string>& words) 
     return {};
   if (!have_one_command_line())
     throw InputError(
-        "mpirun was given several command lines: the parts of a sweep take the same "
-        "one, with one -n");
+        "expected one command line with one -n for all parts of a sweep under mpirun, found "
+        "several");
   if (!line->shares.shard.empty()) {
     if (shard->index > 1) std::_Exit(kUnusableInput);  // one message is enough
-    throw InputError("--shard: expected none under mpirun, whose processes are the parts");
+    throw InputError("--shard: not allowed under mpirun, whose processes are the parts; remove it");
   }
   line->shares.shard = fmt::format("{}/{}", shard->index, shard->count);
   line->shares.threads = std::max(1, line->shares.threads);
@@ -178,7 +178,7 @@ int told_without_console() noexcept {
 
 [[noreturn]] void end_by_library() {
   flexneck::clean_up_now();
-  tell_without_console("a library has ended the command; is there memory left?");
+  tell_without_console("a library has terminated the program; check the free memory");
   std::_Exit(kComputationFailed);
 }
 

@@ -58,7 +58,8 @@ std::string required_text(const StructureSection& structure) {
   const std::string what = fmt::format("a mesh of about {:.3g} nodes", nodes);
   const std::string advice = "lower mesh.refine or the other divisions";
   if (3 * nodes > std::numeric_limits<std::int32_t>::max()) {
-    throw InputError(what + " has more degrees of freedom than 32-bit integers count: " + advice);
+    throw InputError(what + " has more degrees of freedom than 32-bit integers can count; " +
+                     advice);
   }
   require_memory(what, estimated_bytes(nodes), advice);
   return fmt::format(": about {:.3g} nodes, {}", nodes, memory_text(estimated_bytes(nodes)));
@@ -69,7 +70,7 @@ std::string required_text(const StructureSection& structure) {
 bool mesh_command(const CommandInput& input) {
   const Study& study = input.study;
   if (!study.structure) {
-    throw InputError(study.file.string() + ": there is no [geometry], so nothing to mesh");
+    throw InputError(study.file.string() + ": expected [geometry] to mesh, found none");
   }
   const std::string required = required_text(*study.structure);
   input.folder.make();

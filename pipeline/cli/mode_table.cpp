@@ -13,7 +13,8 @@ namespace {
 /// Cells that --check adds to a row of the table.
 std::vector<std::string> mesh_error_cells(const fe_modal::MeshError& estimate) {
   return {fmt::format("{:.3f}", estimate.refined_Hz),
-          estimate.error < 1 ? fmt::format("{:.3f}", 100 * estimate.error) : "not found again",
+          estimate.error < 1 ? fmt::format("{:.3f}", 100 * estimate.error)
+                             : "not found in the refined mesh",
           fmt::format("{:.4f}", estimate.mac)};
 }
 

@@ -75,9 +75,9 @@ mesher::MeshFile read_mesh_together(const CommandInput& input) {
   const std::uint64_t of_first = input.ranks.of_first(hash);
   input.ranks.together([&] {
     if (hash != of_first)
-      throw InputError(path.string() + ": rank " + std::to_string(input.ranks.own()) +
-                       " reads another file of this name than the first one: take a folder that "
-                       "all ranks share");
+      throw InputError(
+          path.string() + ": rank " + std::to_string(input.ranks.own()) +
+          " reads another file of this name than rank 0; use a folder that all ranks share");
   });
   return mesh;
 }
@@ -147,7 +147,7 @@ bool modes_command(const CommandInput& input) {
                       "flexneck mesh");
   if (!input.study.structure) {
     throw InputError(input.study.file.string() +
-                     ": there is no [geometry] that names the interfaces");
+                     ": expected [geometry] for the interfaces, found none");
   }
   fe_modal::ModalOptions options = modes_options(input.study, mesh.mesh);
   share_work(input, mesh, options);

@@ -24,7 +24,7 @@ constexpr double kEqualIntervals = 1e-4;  ///< relative; times are written with 
 void require_times_of(const Curve& force, const Curve& other) {
   if (other.time_s.size() == force.time_s.size() && other.time_s == force.time_s) return;
   throw InputError(other.label() + ": expected the times of " + force.label() +
-                   ", found others; record both together");
+                   ", found others; record both channels together");
 }
 
 /// Interval between samples, s. @throws InputError unless it is constant, which the filter
@@ -37,8 +37,8 @@ double interval_of(const Curve& curve) {
     const double found_s = times_s[k] - times_s[k - 1];
     if (std::abs(found_s - interval_s) <= kEqualIntervals * interval_s) continue;
     throw InputError(
-        fmt::format("{}: the filter CFC 600 takes samples at equal intervals, here {:.6g} s; found "
-                    "{:.6g} s after the time {:.6g} s",
+        fmt::format("{}: the filter CFC 600 needs samples at equal intervals, here {:.6g} s; found "
+                    "an interval of {:.6g} s after the time {:.6g} s",
                     curve.file, interval_s, found_s, times_s[k - 1]));
   }
   return interval_s;
@@ -126,7 +126,7 @@ ResultTable table_of(const std::array<NijPeak, 4>& peaks, const Eigen::VectorXd&
 
 bool nij_command(const FileInput& input) {
   if (input.files.size() != 1)
-    throw InputError("nij: name one file, 'flexneck nij LOADS.csv', found " +
+    throw InputError("nij: expected one file, as in 'flexneck nij LOADS.csv', found " +
                      std::to_string(input.files.size()));
   const NeckLoadChoice& choice = input.neck_loads;
   const NeckIntercepts& intercepts = neck_intercepts(choice.dummy);
@@ -137,7 +137,7 @@ bool nij_command(const FileInput& input) {
   table.notes.insert(
       table.notes.begin(),
       fmt::format("{}: '{}', '{}'{}", force.file, choice.force, choice.moment,
-                  choice.shear.empty() ? "" : " less the arm times '" + choice.shear + "'"));
+                  choice.shear.empty() ? "" : " minus the arm times '" + choice.shear + "'"));
   if (!input.folder.path().empty()) {
     input.folder.make();
     write_tables(input.folder.file("nij.json"), {table}, provenance_of(inputs_of(loads), {}));

@@ -15,7 +15,7 @@ namespace {
 void require_regulation(const Study& study) {
   if (study.tests.empty())
     throw InputError(study.file.string() +
-                     ": expected a [[test]] of a regulation to judge the neck by, found none");
+                     ": expected a [[test]] of a regulation to evaluate the neck, found none");
 }
 
 /// Origins of the decelerations of the judged cases: "certification-flexion: synthetic; …".
@@ -29,7 +29,7 @@ std::string pulse_origins(const Study& study) {
         std::find_if(study.parameters.begin(), study.parameters.end(),
                      [&](const Parameter& parameter) { return parameter.key == key; });
     text += (text.empty() ? "" : "; ") + experiment.name + ": " +
-            (found == study.parameters.end() ? "of a file" : std::string(name_of(found->origin)));
+            (found == study.parameters.end() ? "from a file" : std::string(name_of(found->origin)));
   }
   return text;
 }
@@ -44,10 +44,11 @@ bool qualify_command(const CommandInput& input) {
   if (!input.console.is_verbose())
     for (const ResultTable& table : read_tables(input.folder.file("verdicts.json")).tables)
       if (table.name == kVerdictFigures) input.console.result("\n" + printed(table));
-  input.console.result("\n" + wrapped("A simulation certifies nothing. Pulses, by their origin: " +
-                                          pulse_origins(input.study) +
-                                          ". 'flexneck study' tells the origin of every input.",
-                                      ""));
+  input.console.result("\n" +
+                       wrapped("A simulation does not certify a neck. Origin of the pulses: " +
+                                   pulse_origins(input.study) +
+                                   ". 'flexneck study' prints the origin of every input.",
+                               ""));
   return passed;
 }
 

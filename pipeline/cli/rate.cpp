@@ -40,15 +40,15 @@ CurvesOfOneUnit read_curves(const FileInput& input) {
       read_curve(input.files[1], choice.channel)};
   const bool is_needed = curves.reference.unit.empty() || curves.computed.unit.empty();
   if (!choice.unit.empty() && !is_needed)
-    throw InputError("--unit: both files name the units of their values; leave it out");
+    throw InputError("--unit: both files give the units of their values; remove this option");
   for (Curve* curve : {&curves.reference, &curves.computed})
     if (curve->unit.empty()) curve->unit = choice.unit;
   if (curves.reference.unit.empty() != curves.computed.unit.empty()) {
     const bool lacks = curves.computed.unit.empty();
     throw InputError((lacks ? curves.computed : curves.reference).label() +
-                     ": names no unit of its values, but " +
+                     ": gives no unit of its values, but " +
                      (lacks ? curves.reference : curves.computed).label() +
-                     " does; tell it with --unit");
+                     " does; set it with --unit");
   }
   curves.computed = in_unit(std::move(curves.computed), curves.reference.unit);
   return curves;
@@ -111,8 +111,9 @@ ResultTable cora_table(const ResampledPair& pair, bool is_asked) {
   const auto weight = [](double value) { return fmt::format("{:g}", value); };
   return {
       "cora",
-      fmt::format("CORA 4.0.5, {:g} to {:g} s{}", time(range.first), time(range.last),
-                  is_asked ? "" : " (its interval of evaluation within that)"),
+      fmt::format(
+          "CORA 4.0.5, {:g} to {:g} s{}", time(range.first), time(range.last),
+          is_asked ? "" : " (the interval of evaluation of CORA within the common interval)"),
       columns(),
       {{"corridor C1", six_digits(rating.corridor), weight(p.corridor_weight), ""},
        {"progression V", six_digits(rating.progression),
@@ -140,7 +141,7 @@ std::vector<InputFile> inputs_of(const CurvesOfOneUnit& curves) {
 std::string filter_text(const Curve& curve) {
   if (!curve.filter) return {};
   return ", " + std::string(curve.filter->text.empty() ? "unfiltered" : curve.filter->text) +
-         " by its code";
+         " by its channel code";
 }
 
 /// Warns of different filters, since ratings compare the curves unfiltered.
@@ -148,17 +149,18 @@ void warn_of_filters(const FileInput& input, const CurvesOfOneUnit& curves) {
   const auto& reference = curves.reference.filter;
   const auto& computed = curves.computed.filter;
   if (reference && computed && reference->text != computed->text)
-    input.console.warning("the channels have passed different filters: " +
-                          curves.reference.label() + filter_text(curves.reference) + ", " +
-                          curves.computed.label() + filter_text(curves.computed));
+    input.console.warning("the channels were filtered differently: " + curves.reference.label() +
+                          filter_text(curves.reference) + ", " + curves.computed.label() +
+                          filter_text(curves.computed));
 }
 
 }  // namespace
 
 bool rate_command(const FileInput& input) {
   if (input.files.size() != 2)
-    throw InputError("rate: name two files, 'flexneck rate REFERENCE.csv COMPUTED.csv', found " +
-                     std::to_string(input.files.size()));
+    throw InputError(
+        "rate: expected two files, as in 'flexneck rate REFERENCE.csv COMPUTED.csv', found " +
+        std::to_string(input.files.size()));
   const CurveChoice& choice = input.curves;
   const AskedInterval asked = {time_of("--from", choice.from), time_of("--to", choice.to)};
   const CurvesOfOneUnit curves = read_curves(input);

@@ -158,7 +158,7 @@ void make(const CommandInput& input, Stages& records, const Stage& stage, ModesG
         stage.command(input);
       });
   if (made) return;
-  input.console.step("Nothing has changed for " + stage.name + ": kept");
+  input.console.step("Inputs unchanged for " + stage.name + ": results kept");
   warn_again(input, records, stage.name);
   print_kept(input, stage.name);
 }
@@ -179,7 +179,7 @@ PendulumResults make_cases(const CommandInput& input, Stages& records) {
     else
       due.push_back(experiment);
   if (!kept.empty())
-    input.console.step(fmt::format("Nothing has changed for {} of {} pendulum cases: kept",
+    input.console.step(fmt::format("Inputs unchanged for {} of {} pendulum cases: results kept",
                                    kept.size(), all.size()));
   for (const std::string& stage : kept) warn_again(input, records, stage);
   if (due.empty()) return {};

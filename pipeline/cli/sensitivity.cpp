@@ -180,7 +180,7 @@ void add_dimension(const Dimension& dimension, const Study& study, const mesher:
     result.left_out.push_back({dimension.key, why, is_choice});
   };
   if (!reaches_script(dimension, study)) {
-    leave_out("it chooses nodes of the mesh and moves none", true);
+    leave_out("it selects nodes of the mesh and does not move them", true);
     return;
   }
   try {
@@ -232,7 +232,7 @@ StudyParameters design_parameters(const Study& study, const mesher::Mesh& mesh,
 /// Prints the parameters left out, those that might have had a derivative as warnings.
 void show_left_out(const Console& console, const std::vector<LeftOutParameter>& left_out) {
   for (const LeftOutParameter& each : left_out) {
-    const std::string line = each.key + " is left out: " + each.why;
+    const std::string line = each.key + " is omitted: " + each.why;
     each.is_choice ? console.result(line) : console.warning("--sensitivity: " + line);
   }
 }
@@ -244,14 +244,14 @@ void check_sensitivity(const Study& study) {
     throw InputError(study.file.string() + ": --sensitivity " + problem);
   };
   if (study.matrices) {
-    refuse("needs a mesh, [matrices] has no elements to differentiate; take it away");
+    refuse("needs a mesh, which [matrices] does not contain; remove the option");
   }
   if (study.modes.prestress) {
-    refuse("is not offered of prestressed modes; leave modes.prestress out");
+    refuse("is not supported for prestressed modes; remove modes.prestress");
   }
   if (study.modes.basis == fe_modal::BasisKind::craig_bampton) {
     refuse(
-        "needs eigenvectors, found modes.basis = \"craig-bampton\"; take \"normal\" or "
+        "needs eigenvectors, found modes.basis = \"craig-bampton\"; use \"normal\" or "
         "\"residual\"");
   }
 }
@@ -260,11 +260,11 @@ void write_sensitivities(const CommandInput& input, const mesher::Mesh& mesh,
                          const fe_modal::ModalOptions& options, const fe_modal::ModalBody& body,
                          const fe_modal::AnalysisFields& fields, Provenance provenance) {
   StepTimes times;
-  input.console.step("Moving the mesh a little with each dimension");
+  input.console.step("Perturbing the mesh by each dimension");
   times.start("runs of the script");
   StudyParameters study = design_parameters(input.study, mesh, input.console);
   times.start("sensitivities");
-  input.console.step(fmt::format("Differentiating by {} inputs", study.parameters.size()));
+  input.console.step(fmt::format("Computing sensitivities to {} inputs", study.parameters.size()));
   const fe_modal::Sensitivities found =
       fe_modal::sensitivities(mesh, options, body, fields, std::move(study.parameters));
   times.stop();
@@ -272,7 +272,7 @@ void write_sensitivities(const CommandInput& input, const mesher::Mesh& mesh,
       fmt::format("seconds: {}; {} runs of the script", times.summary(), study.script_runs));
   std::vector<std::string> notes;
   for (const LeftOutParameter& each : study.left_out)
-    notes.push_back("Left out is " + each.key + ": " + each.why + ".");
+    notes.push_back("Omitted: " + each.key + ": " + each.why + ".");
   const std::vector<ResultTable> tables = sensitivity_tables(found, notes);
   const std::filesystem::path path = input.folder.sensitivities();
   provenance.inputs.push_back(

@@ -39,7 +39,7 @@ std::string dimension_table(const Study& study) {
   add("slits", "none, closed or open: at mid-height, front half");
   if (study.neck()->slits.depth) {
     add("slit_parts", "rubber sections with slits");
-    add("slit_depth", "share of the rubber from rim to hole that is cut");
+    add("slit_depth", "fraction of the rubber between rim and hole that is cut");
   }
   return text_table(rows, {0, 1, 2, 3});
 }
@@ -91,7 +91,7 @@ bool show_command(const CommandInput& input) {
   const NeckSection* const neck = input.study.neck();
   if (neck == nullptr) {
     throw InputError(input.study.file.string() +
-                     ": --dry-run describes the neck, but [geometry] gives none");
+                     ": --dry-run describes the built-in neck, which [geometry] does not define");
   }
   const geometry::NeckMeasures measures = measure_neck(*input.study.structure);
   input.console.result(dimension_table(input.study) + "\n\n" + derived_table(*neck, measures) +

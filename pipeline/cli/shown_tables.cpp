@@ -111,10 +111,10 @@ void show_verification(const CommandInput& input, const VerificationTable& table
   if (std::any_of(table.rows.begin(), table.rows.end(), [](const VerificationRow& row) {
         return row.status == VerificationRow::Status::unjudged;
       }))
-    input.console.result("  nothing is judged: " + why_unjudged(input.study, table));
+    input.console.result("  no figure has a verdict: " + why_unjudged(input.study, table));
   if (others > 0 && !input.console.is_verbose())
     input.console.result(fmt::format("  and {} figures without a verdict (--verbose)", others));
-  if (!table.passed()) input.console.error("a verification failed, see the table");
+  if (!table.passed()) input.console.error("a verification failed; see the table above");
 }
 
 }  // namespace flexneck::pipeline

@@ -92,12 +92,12 @@ void warn_of_kink(const FileInput& input, const std::string& name,
                   const multibody::SystemMode& mode) {
   if (!mode.kink.empty())
     input.console.warning(
-        name + ": modes are of the mean stiffness of both sides of a kink: " + mode.kink);
+        name + ": the modes use the mean stiffness of both sides of a kink: " + mode.kink);
 }
 
 std::string about_expressions(const ModelFile& file) {
   return file.has_expressions
-             ? fmt::format("\n  expressions of time are resolved to {:.6g} ms (solver.resolution)",
+             ? fmt::format("\n  resolution of expressions of time: {:.6g} ms (solver.resolution)",
                            1e3 * file.solver.resolution_s)
              : "";
 }
@@ -160,7 +160,7 @@ void simulate_model(const ModelFile& file, const FileInput& input) {
   } catch (const multibody::IncompleteRun& stopped) {
     finish(stopped.history);
     throw ComputationError(file.file.string() + ": " + stopped.what() +
-                           "; what was computed until then is kept, marked incomplete");
+                           "; the results up to that time are kept and marked incomplete");
   }
 }
 
@@ -168,8 +168,7 @@ SimulatedModel simulated(const ModelFile& file) {
   if (!file.rates_rad_s.empty())
     throw InputError(
         file.file.string() +
-        ": linearisation.rates: a Campbell diagram is written into a folder, and there "
-        "is none; name one");
+        ": linearisation.rates: a Campbell diagram needs a folder of results; name one");
   const auto linearisation = linearised(file);
   const multibody::OutputOptions options = outputs_of(file);
   SimulatedOutput output(file, {}, {}, multibody::OutputTimes(options).count());
@@ -183,7 +182,7 @@ SimulatedModel simulated(const ModelFile& file) {
 
 bool simulate_command(const FileInput& input) {
   if (input.files.size() != 1)
-    throw InputError("simulate: name one model, 'flexneck simulate MODEL.toml'");
+    throw InputError("simulate: expected one model, as in 'flexneck simulate MODEL.toml'");
   const fs::path model = named_file(input.files.front());
   ModelFile file = read(model, input.settings);
   file.solver.checkpoint = input.console.checkpoint();

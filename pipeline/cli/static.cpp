@@ -103,8 +103,8 @@ bool static_command(const CommandInput& input) {
   provenance.inputs.push_back({path.filename().string(), hash_of_file(path.string())});
   if (has_own_moduli && has_cases_of_pieces(input.study, CaseSection::Kind::static_test))
     throw InputError(input.study.file.string() +
-                     ": a static case has pieces as sections, which are not made with the "
-                     "static_modulus_ratio of [geometry.materials]; give one of them only");
+                     ": sections from substructures in a static case do not support "
+                     "static_modulus_ratio of [geometry.materials]; remove one of them");
   const std::vector<ChainLink> links = read_links(input, provenance);
   const Study study = with_pieces(input, provenance.inputs);
   std::vector<StaticEntry> entries;

@@ -25,9 +25,9 @@ void write_stresses(const CommandInput& input, mesher::MeshFile mesh) {
   options.prestress.clear();
   const auto warn_of = [&](const std::vector<std::string>& single) {
     for (const std::string& line : single)
-      input.console.warning(line +
-                            " acts on single nodes: what is computed beside them has no limit "
-                            "as the elements become smaller");
+      input.console.warning(
+          line +
+          " acts on single nodes, near which the results do not converge with mesh refinement");
   };
   warn_of(fe_modal::loaded_at_single_nodes(mesh.mesh, study.loads));
   warn_of(fe_modal::held_at_single_nodes(mesh.mesh, options));
@@ -54,7 +54,7 @@ void write_stresses(const CommandInput& input, mesher::MeshFile mesh) {
 bool stress_command(const CommandInput& input) {
   const Study& study = input.study;
   if (study.loads.empty())
-    throw InputError(study.file.string() + ": there is no [[load]] for a static step");
+    throw InputError(study.file.string() + ": expected a [[load]] for the static step, found none");
   mesher::MeshFile mesh = read_mesh(input.folder.mesh());
   require_same_inputs(input.folder.mesh(), mesh.provenance, study, mesh_values(study),
                       "flexneck mesh");

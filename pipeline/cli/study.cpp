@@ -15,8 +15,8 @@ bool study_command(const CommandInput& input) {
   std::string fallbacks;
   for (const Parameter& parameter : input.study.defaults)
     fallbacks += wrapped(parameter.key + " = " + parameter.value, "  ");
-  input.console.result("Given, with its origin:\n" + given + "\nNot given, and then:\n" +
-                       fallbacks);
+  input.console.result("Given values and their origin:\n" + given +
+                       "\nDefault values of keys that are not given:\n" + fallbacks);
   return true;
 }
 

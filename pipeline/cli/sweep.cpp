@@ -88,7 +88,8 @@ void draw(const CommandInput& input, const SweepPictures& pictures) {
     input.console.result(fmt::format("Pictures: {} of sweep-*.svg in {}", names.size(),
                                      input.folder.path().string()));
   } catch (const InputError& error) {
-    input.console.warning(std::string("no pictures of the sweep: ") + error.what());
+    input.console.warning(std::string("the pictures of the sweep cannot be drawn: ") +
+                          error.what());
   }
 }
 
@@ -120,7 +121,8 @@ void require_outputs(const SweepJob& job, const SweepTable& table) {
   const auto most =
       std::max_element(table.reasons.begin(), table.reasons.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });
-  const std::string why = "no row of the sweep has it; the most frequent reason: " + most->first;
+  const std::string why =
+      "not computed in any row of the sweep; the most frequent reason: " + most->first;
   for (std::size_t k = 0; k < job.figures().size(); ++k)
     if (table.figures.row(static_cast<Eigen::Index>(k)).array().isNaN().all())
       throw ComputationError("output '" + job.figures()[k].name + "': " + why);
@@ -137,7 +139,7 @@ void assemble(const CommandInput& input, const SweepJob& job, const SweepRows& s
                  [&](const std::string& warning) { input.console.warning(warning); });
   } catch (const InputError& error) {
     if (input.shares.shard.empty()) throw;
-    input.console.step(std::string("The table is not made here: ") + error.what());
+    input.console.step(std::string("The table is not assembled by this process: ") + error.what());
     return;
   }
   const Provenance provenance = provenance_of_sweep(input.study, job);
@@ -164,12 +166,12 @@ void refuse_or_wait(const CommandInput& input, const SweepJob& job, const Shard&
   const std::vector<std::string> outdated = job.outdated(shard);
   const std::uint64_t own = shard.end(sweep.count()) - shard.first(sweep.count());
   if (job.rows_done(shard) < own)
-    throw InputError((outdated.empty() ? "rows of this sweep are gone" : outdated.front()) +
-                     ", which changed meanwhile; the same command computes them again");
+    throw InputError((outdated.empty() ? "rows of this sweep were removed" : outdated.front()) +
+                     "; run the same command again to recompute them");
   for (const std::string& line : outdated)
-    input.console.warning(line + "; run that part again, no table is made of both");
+    input.console.warning(line + "; run that part again, since the table cannot be made from both");
   input.console.result("Part " + shard.name() +
-                       " is done; the table is made once all parts are there");
+                       " is complete; the table is made when all parts are complete");
 }
 
 }  // namespace
@@ -194,7 +196,7 @@ bool sweep_command(const CommandInput& input) {
       job.compute(share, [&](const std::string& line) { input.console.step(line); });
   if (!is_done)
     throw ComputationError(fmt::format(
-        "stopped: {} of {} rows are done and kept; the same command goes on with the rest",
+        "stopped; {} of {} rows are complete and kept; run the same command again to continue",
         job.rows_done(shard), shard.end(sweep.count()) - shard.first(sweep.count())));
   if (job.is_complete()) {
     assemble(input, job, sweep);

@@ -28,8 +28,8 @@ std::optional<multibody::HistoryFile> run_of(const CommandInput& input,
   require_same_inputs(path, file.provenance, study, case_provenance(study, section).parameters,
                       made_by);
   if (const std::string source = replaced_source(path, file.provenance); !source.empty())
-    throw InputError(path.string() + ": was made from another " + source +
-                     " than the one beside it; make it again with '" + made_by + "'");
+    throw InputError(path.string() + ": was made from a different " + source +
+                     " than the one in this folder; make it again with '" + made_by + "'");
   require_whole_run(path, file.history);
   return file;
 }

@@ -41,8 +41,8 @@ bool compare_with_published(const CommandInput& input) {
                       modes_provenance(input.study).parameters, "flexneck modes");
   if (!modes.body.prestress.empty())
     throw InputError(input.folder.modes().string() +
-                     ": published figures are of bodies without prestress; make the modes without "
-                     "modes.prestress");
+                     ": published figures apply to bodies without prestress; make the modes "
+                     "without modes.prestress");
   Provenance provenance = provenance_of(input.study);
   const Study study = with_pieces(input, provenance.inputs);
   std::vector<PendulumEvidence> pendulum;
@@ -70,8 +70,8 @@ bool verify_command(const CommandInput& input) {
   const Study& study = input.study;
   if (study.verification.empty() && !has_tests(study)) {
     throw InputError(study.file.string() +
-                     ": output.verification names no table of published figures, and there is no "
-                     "[[test]]");
+                     ": expected output.verification with a file of published figures, or a "
+                     "[[test]], found neither");
   }
   const bool passed = study.verification.empty() || compare_with_published(input);
   // A neck that fails a certification is a result of the study, not an error of the program.

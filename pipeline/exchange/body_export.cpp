@@ -42,7 +42,7 @@ std::string lost(const fe_modal::ModalBody& body, const Losses& losses) {
                   [](const auto& interface) { return interface.response.has_value(); }),
       "static responses of interfaces");
   add(list, !body.attached.empty(), "frequencies with attached bodies");
-  add(list, true, "checks of completeness, provenance");
+  add(list, true, "completeness check and provenance");
   return list;
 }
 
@@ -52,18 +52,19 @@ fe_modal::ModalBody body_to_write(const FileInput& input, const Losses& losses) 
   fe_modal::ModalBody body = read_modal_body(file).body;
   if (!body.slits.empty())
     throw InputError(file.string() +
-                     ": the body has slits that open and close, which no other format knows");
+                     ": the body has slits that open and close, which no other format supports");
   if (body.interfaces.empty())
-    throw InputError(file.string() + ": the body has no interface for others to attach to");
+    throw InputError(file.string() +
+                     ": the body has no interface at which other bodies could be attached");
   const auto rigid = std::count_if(body.modes.begin(), body.modes.end(), [](const auto& mode) {
     return mode.kind == fe_modal::kRigidMode;
   });
   if (rigid == static_cast<std::ptrdiff_t>(body.modes.size()))
-    throw InputError(file.string() + ": the body has rigid motions only");
+    throw InputError(file.string() + ": the body has only rigid-body modes");
   std::string list = lost(body, losses);
   if (rigid > 0) {
     body = fe_modal::select_modes(body, {"all"});
-    add(list, true, fmt::format("{} rigid motions", rigid));
+    add(list, true, fmt::format("{} rigid-body modes", rigid));
   }
   input.console.warning(input.target.string() + ": not carried over: " + list);
   return body;
@@ -97,7 +98,7 @@ void import_body(const FileInput& input) {
   });
   if (reader == kReaders.end())
     throw InputError(file.string() +
-                     ": expected a body in .fem (MBDyn) or .SID_FEM, to be written as " +
+                     ": expected a body in a .fem (MBDyn) or .SID_FEM file for an export to " +
                      input.target.string());
   fe_modal::ImportedModes imported = reader->read(file);
   fe_modal::write_modal_body(

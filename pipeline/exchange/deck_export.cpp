@@ -24,8 +24,8 @@ std::string mixed_materials(const mesher::Mesh& mesh, const fe_modal::Formulatio
                              material.name, material.poissons_ratio);
   }
   if (materials.empty()) return {};
-  return "formulation mixed_pressure is not carried over: the deck's elements are of displacements "
-         "alone, and may be stiffer, in " +
+  return "the formulation mixed_pressure is not carried over; the elements of the deck have "
+         "displacements only and may be stiffer, in " +
          materials;
 }
 

@@ -9,21 +9,21 @@ namespace flexneck::pipeline {
 namespace {
 
 constexpr std::array<ExportFormat, 14> kFormats = {
-    {{".msh", "the mesh for gmsh", export_msh, true},
-     {".inp", "a deck for CalculiX", export_deck},
-     {".mtx", "K and M in Matrix Market's format", export_matrices},
-     {".petsc", "K and M in PETSc's", export_matrices},
-     {".dat", "the modes for the ATB", export_atb_modes},
-     {".vtu", "mesh and modes, or stresses, for ParaView, meshio", export_modes_vtu, false,
+    {{".msh", "mesh for gmsh", export_msh, true},
+     {".inp", "input deck for CalculiX", export_deck},
+     {".mtx", "stiffness and mass matrix in Matrix Market format", export_matrices},
+     {".petsc", "stiffness and mass matrix in PETSc binary format", export_matrices},
+     {".dat", "modes for the ATB", export_atb_modes},
+     {".vtu", "mesh and modes, or stresses, for ParaView and meshio", export_modes_vtu, false,
       export_stress_vtu},
-     {".pvd", "the motion of a run for ParaView", nullptr, false, export_motion_pvd},
-     {".csv", "all that a run records", nullptr, false, export_motion_csv},
-     {".mme", "the channels of a run as ISO-MME", nullptr, false, export_mme_test},
-     {".fem", "a modal body for MBDyn", nullptr, false, export_mbdyn_body},
-     {".SID_FEM", "a modal body as standard input data", nullptr, false, export_sid_body},
-     {".hdf5", "a modal body for Exudyn", nullptr, false, export_exudyn_body},
-     {".h5", "a modal body of .fem or .SID_FEM", nullptr, false, import_body},
-     {".fmu", "a model for co-simulation by FMI 3.0", nullptr, false, export_fmu, true}}};
+     {".pvd", "motion of a run for ParaView", nullptr, false, export_motion_pvd},
+     {".csv", "all recorded values of a run", nullptr, false, export_motion_csv},
+     {".mme", "channels of a run as an ISO-MME test", nullptr, false, export_mme_test},
+     {".fem", "modal body for MBDyn", nullptr, false, export_mbdyn_body},
+     {".SID_FEM", "modal body as standard input data", nullptr, false, export_sid_body},
+     {".hdf5", "modal body for Exudyn", nullptr, false, export_exudyn_body},
+     {".h5", "modal body from a .fem or .SID_FEM file", nullptr, false, import_body},
+     {".fmu", "model as an FMU for co-simulation (FMI 3.0)", nullptr, false, export_fmu, true}}};
 
 /// Extensions of files that hold a run or a body.
 constexpr std::array<std::string_view, 3> kNoStudies = {".h5", ".fem", ".SID_FEM"};

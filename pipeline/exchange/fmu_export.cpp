@@ -74,8 +74,8 @@ void check_variable_names(const fs::path& model, FmuModel& fmu) {
   std::set<std::string> names;
   for (const FmuVariable& variable : variables_of(fmu))
     if (!names.insert(variable.name).second)
-      throw InputError(model.string() + ": two variables of the FMU would be called '" +
-                       variable.name + "'; call a channel otherwise");
+      throw InputError(model.string() + ": two variables of the FMU would have the name '" +
+                       variable.name + "'; rename a channel");
 }
 
 /// The channels, with their filters removed, since a filter needs the whole run.
@@ -92,7 +92,7 @@ std::vector<ChannelSpec> outputs_of(const ModelFile& file, const fs::path& targe
     channels.back().filter.reset();
     if (spec.filter)
       console.warning(target.string() + ": the output '" + spec.name +
-                      "' is not filtered: a filter runs over the whole of a run");
+                      "' is not filtered, since a filter needs the whole run");
   }
   return channels;
 }
@@ -107,7 +107,7 @@ SteppedRun::Kind kind_of(const ModelFile& file) {
 fs::path parser_file() {
   Dl_info found;
   if (dladdr(reinterpret_cast<const void*>(&mupGetVersion), &found) == 0)
-    throw ComputationError("the file of muParser is not found, which an FMU with formulas needs");
+    throw ComputationError("the muParser library, which an FMU with formulas needs, was not found");
   return found.dli_fname;
 }
 
@@ -140,7 +140,7 @@ void write_fmu(const ModelFile& file, const fs::path& target, const Console& con
   const std::string description = model_description(
       {name, identifier, token_of(bytes), fmt::format("flexneck {} ({})", kVersion, kGitHash),
        file.has_expressions
-           ? fmt::format("Expressions of time are resolved to {} s up to {} s",
+           ? fmt::format("Resolution of expressions of time: {} s, up to the time {} s",
                          exact_text(file.solver.resolution_s), exact_text(file.end_time_s))
            : ""},
       fmu);

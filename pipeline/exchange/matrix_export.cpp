@@ -12,20 +12,20 @@ void export_matrices(const CommandInput& input, mesher::Mesh& mesh) {
   const Study& study = input.study;
   if (!study.modes.fixed_directions.empty() || !study.modes.rigid_interfaces.empty()) {
     throw InputError(
-        "matrices are written with three directions a node: leave out modes.fixed_directions and "
-        "modes.rigid_interfaces");
+        "matrices are written with three degrees of freedom per node; remove "
+        "modes.fixed_directions and modes.rigid_interfaces");
   }
   if (study.modes.prestress)
     throw InputError(
-        "matrices are written without the stiffness of a prestress: leave out "
+        "matrices are written without the geometric stiffness of a prestress; remove "
         "modes.prestress");
   const fe_modal::ModalOptions options = modes_options(study, mesh);
   const fe_modal::DofMap dof_map = fe_modal::dof_map_of(mesh, options);
   if (dof_map.is_constrained()) {
-    throw InputError("matrices are written with three directions a node, and not with " +
-                     mesh.connections.text() +
-                     ": leave out all but springs and masses at nodes, and supports in all "
-                     "directions");
+    throw InputError(
+        "matrices are written with three degrees of freedom per node, which is not possible with " +
+        mesh.connections.text() +
+        "; remove all except springs and masses at nodes, and supports in all directions");
   }
   const fe_modal::PetscSession session;
   const fe_modal::ImportedBody body =

@@ -17,9 +17,9 @@ fe_modal::ModalBody modes_of_mesh(const CommandInput& input, const mesher::Mesh&
 void require_modes_of(const mesher::Mesh& mesh, const fe_modal::ModalBody& body,
                       const std::filesystem::path& modes_file) {
   if (body.nodes_m.cols() == static_cast<Eigen::Index>(mesh.nodes.size())) return;
-  throw InputError(modes_file.string() +
-                   ": belongs to another mesh than the mesh.h5 beside it; make it again with "
-                   "'flexneck modes'");
+  throw InputError(
+      modes_file.string() +
+      ": belongs to another mesh than mesh.h5 in this folder; make it again with 'flexneck modes'");
 }
 
 }  // namespace flexneck::pipeline

@@ -78,7 +78,7 @@ bool is_own_code(const multibody::Channel& channel) {
 Index equal_outputs(const Eigen::VectorXd& time_s) {
   constexpr double kSame = 1e-6;  // fraction of an interval
   const Index count = time_s.size();
-  if (count < 2) throw InputError("expected two outputs or more");
+  if (count < 2) throw InputError("expected at least two outputs");
   const double interval_s = time_s[1] - time_s[0];
   Index k = 2;
   while (k < count && std::abs(time_s[0] + static_cast<double>(k) * interval_s - time_s[k]) <=
@@ -86,8 +86,8 @@ Index equal_outputs(const Eigen::VectorXd& time_s) {
     ++k;
   if (k + 1 < count)
     throw InputError(
-        fmt::format("outputs of ISO-MME are at equal intervals, here {:g} s, but one "
-                    "is at {:g} s after {:g} s",
+        fmt::format("an ISO-MME test needs outputs at equal intervals, here {:g} s, but one at "
+                    "{:g} s follows one at {:g} s",
                     interval_s, time_s[k], time_s[k - 1]));
   return k;
 }
@@ -113,10 +113,9 @@ std::vector<std::string> mme_codes(const multibody::Channel& channel, const MmeS
   std::vector<std::string> codes;
   for (std::size_t column = 0; column < channel.columns.size(); ++column) {
     if (++number > kMaxNumber)
-      throw InputError(
-          fmt::format("expected at most {} curves without a code of the standard; "
-                      "choose fewer channels in the model",
-                      kMaxNumber));
+      throw InputError(fmt::format(
+          "expected at most {} channels without a standard code; use fewer channels in the model",
+          kMaxNumber));
     codes.push_back(
         fmt::format("002{:03}000000{}0{}", number, mme_dimension(channel.unit), filter));
   }
@@ -129,8 +128,8 @@ std::vector<MmeChannel> mme_channels(const multibody::HistoryFile& run, const Mm
   const Index count = equal_outputs(time_s);
   if (count < time_s.size())
     left_out.push_back(
-        fmt::format("the output at {:g} s is not carried over: it lies nearer to the "
-                    "one before it than the others",
+        fmt::format("the output at {:g} s is not carried over, since its interval to the output "
+                    "before it is shorter than the others",
                     time_s[count]));
   int number = 0;
   std::vector<MmeChannel> channels;

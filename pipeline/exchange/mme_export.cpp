@@ -34,9 +34,9 @@ const CaseSection& case_of(const Study& study, const fs::path& file) {
   const ResultsFolder folder(file.parent_path());
   for (const CaseSection& each : study.cases)
     if (folder.history(each).filename() == file.filename()) return each;
-  throw InputError(file.string() +
-                   ": the study that the folder was made with has no such case any more; make it "
-                   "again with 'flexneck run'");
+  throw InputError(
+      file.string() +
+      ": the study of this folder no longer contains this case; make it again with 'flexneck run'");
 }
 
 std::string type_of(const MmeSource& source) {
@@ -49,8 +49,8 @@ std::vector<std::string> comments_on(const multibody::HistoryFile& run, const Mm
   std::vector<std::string> comments = {"computed by " + run.provenance.program + ", not measured"};
   if (source.experiment != nullptr)
     comments.emplace_back(
-        "direction 1 or 2: sign other than that of SAE J211; rotations are positive towards the "
-        "side that the head tips to");
+        "direction 1 or 2: the sign differs from that of SAE J211; rotations are positive towards "
+        "the side to which the head tips");
   return comments;
 }
 

@@ -123,22 +123,22 @@ void export_motion_pvd(const FileInput& input) {
   const fs::path& file = input.files.front();
   const multibody::History history = whole_run(input).history;
   if (history.modal.empty())
-    throw InputError(file.string() +
-                     ": expected a run with a deformable body, whose mesh is drawn, "
-                     "found rigid ones only");
+    throw InputError(
+        file.string() +
+        ": expected a run with a deformable body, whose mesh is exported, found only rigid bodies");
   const ResultsFolder folder(file.parent_path());
   const mesher::Mesh mesh = read_mesh(folder.mesh()).mesh;
   const fe_modal::ModalBody body = read_modal_body(folder.modes()).body;
   require_modes_of(mesh, body, folder.modes());
   if (!bent_neck(history, body, 0))
     throw InputError(file.string() +
-                     ": expected a run with one deformable body whose modes are those of " +
+                     ": expected a run with one deformable body with the modes of " +
                      folder.modes().string() + ", found another one");
   const Rider rider = rider_of(history, body);
   if (rider.marker == nullptr)
-    throw InputError(file.string() +
-                     ": records none of the interfaces of its deformable body; name "
-                     "one in output.markers");
+    throw InputError(
+        file.string() +
+        ": contains none of the interfaces of the deformable body; add one to output.markers");
   const std::string name = input.target.stem().string();
   AtomicFolder frames(input.target.parent_path() / name);
   const mesher::VtuWriter writer(mesh);

@@ -13,8 +13,8 @@ void export_stress_vtu(const FileInput& input) {
   if (std::filesystem::exists(file) &&
       format_of(ReadableFile(file).path()) != fe_modal::kStaticSolutionFormat.name)
     throw InputError(input.target.string() +
-                     ": expected an ending of .mme, .pvd or .csv for the run " + file.string() +
-                     ", which holds no stresses");
+                     ": expected the extension .mme, .pvd or .csv for the run " + file.string() +
+                     ", which contains no stresses");
   const fe_modal::StaticSolution solution = read_static_solution(file).solution;
   const ResultsFolder folder(file.parent_path());
   const mesher::Mesh mesh = read_mesh(folder.mesh()).mesh;

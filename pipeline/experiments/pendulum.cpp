@@ -238,7 +238,7 @@ multibody::SystemMode first_system_mode(const Study& study, const CaseSection& e
   const std::vector<multibody::SystemMode> modes = multibody::system_modes(model);
   if (modes.empty()) {
     throw InputError("case." + experiment.name +
-                     ": none of the modes chosen moves in the plane of the case");
+                     ": none of the selected modes moves in the plane of the case");
   }
   // At a kink the mean stiffness is not symmetric, so that an oscillation may grow although the
   // equilibrium is stable; only a non-oscillating instability means that the neck falls over.

@@ -47,7 +47,7 @@ ResultTable peak_table(const Study& study, const std::vector<PendulumEntry>& ent
     table.rows.push_back(std::move(row));
   }
   table.notes = {
-      "Origin of the pulses by the study: " + pulse_origins(study) +
+      "Origin of the pulses according to the study: " + pulse_origins(study) +
           ". The paper's deceleration records are not published.",
       "Head acceleration: kinematic, along the arm's motion, CFC 1000. Moments: load of the lower "
       "body on the upper one, signs of SAE J211.",
@@ -70,7 +70,7 @@ std::string kink_note(const std::vector<PendulumEntry>& entries) {
     }
   }
   if (cases.empty()) return {};
-  return "Of the mean stiffness of both sides of a kink (" + first + "): " + cases + ".";
+  return "Computed with the mean stiffness of both sides of a kink (" + first + "): " + cases + ".";
 }
 
 }  // namespace
@@ -94,8 +94,8 @@ ResultTable oscillation_table(const std::vector<PendulumEntry>& entries) {
       "The paper reports a system frequency of about 5 Hz, a seventh of the neck's first, and of "
       "an effective damping of about 0.2. The three contradict each other: a modal ratio of 0.9 at "
       "a frequency seven times higher makes about 0.13.",
-      "Eigenvalue: small motions in the plane of the case about the hanging equilibrium. Run: "
-      "between crossings and peaks of the head's rotation after the pulse."};
+      "Eigenvalue: small motions in the plane of the case about the hanging equilibrium. Run: from "
+      "the zero crossings and peaks of the head rotation after the pulse."};
   if (std::string note = kink_note(entries); !note.empty()) table.notes.push_back(std::move(note));
   return table;
 }

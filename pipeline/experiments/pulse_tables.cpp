@@ -151,13 +151,16 @@ ResultTable velocity_table(const std::vector<PendulumEntry>& entries) {
     table.rows.push_back(std::move(row));
   }
   table.notes.emplace_back(
-      "The paper gives the lowest and the highest velocity of its drops only." +
-      std::string(lengths_m.size() < 2 ? ""
-                                       : " The velocities that the study gives with a drop imply "
-                                         "different lengths of a point pendulum, all shown."));
+      "The paper reports only the lowest and the highest velocity of its drops." +
+      std::string(lengths_m.size() < 2
+                      ? ""
+                      : " The velocities that the study gives with a drop angle imply different "
+                        "lengths of a point pendulum, all of which are shown."));
   for (const std::string& length : used)
-    table.notes.push_back("Velocities that the study does not give are those on " + length +
-                          " in.");
+    table.notes.push_back(
+        "Velocities that the study does not give are computed for a point pendulum with a length "
+        "of " +
+        length + " in.");
   for (const std::string& warning : pulse_warnings(entries))
     table.notes.push_back("Warning: " + warning);
   return table;
@@ -214,9 +217,8 @@ std::vector<std::string> pulse_warnings(const std::vector<PendulumEntry>& entrie
     const double velocity = entry.experiment.impact_velocity_m_s;
     if (!(std::abs(entry.pulse.velocity_left_m_s) > kMisfit * velocity)) continue;
     warnings.push_back(fmt::format(
-        "{}: the pulse '{}' takes {:.1f} in/s of {:.1f} in/s and is used as it is: the "
-        "arm "
-        "keeps {:.1f} in/s; pulse_scaling = \"amplitude\" or \"duration\" would bring it to rest.",
+        "{}: the pulse '{}' removes {:.1f} in/s of {:.1f} in/s and is not scaled: the arm retains "
+        "{:.1f} in/s; pulse_scaling = \"amplitude\" or \"duration\" would stop it.",
         entry.experiment.name, entry.experiment.pulse, entry.pulse.area_m_s * in, velocity * in,
         entry.pulse.velocity_left_m_s * in));
   }
@@ -278,10 +280,10 @@ ResultTable spectrum_table(const Study& study, const std::vector<PendulumEntry>&
   }
   table.notes = {
       "The paper chose the first four bending modes by the frequencies in its deceleration "
-      "records. Pulses as the study gives them; by amplitude they keep these shares, a duration "
-      "times d moves them to frequencies divided by d.",
-      "A mode that the pulse does not reach still bends by its static compliance; the neck's own "
-      "frequencies fall with the head on."};
+      "records. Pulses as given in the study; a scaled amplitude does not change these values, a "
+      "duration scaled by d divides their frequencies by d.",
+      "A mode that the pulse does not excite still deforms by its static compliance; the "
+      "frequencies of the neck decrease with the head attached."};
   return table;
 }
 

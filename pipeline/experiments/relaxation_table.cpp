@@ -73,17 +73,17 @@ void add_sections(const multibody::Model& model,
 std::string band_note(const Alike& sections, const std::string& names) {
   if (!sections.relaxation.band_Hz)
     return names +
-           ": the study does not say at which frequencies the branches stand for the rubber.";
+           ": the study does not give the frequencies at which the branches represent the rubber.";
   return fmt::format(
-      "{}: a stand-in for {:g} to {:g} Hz, says the study. Beyond, these are figures of the "
-      "branches, not of the rubber.",
+      "{}: according to the study, the branches represent the rubber from {:g} to {:g} Hz; outside "
+      "this range the values are those of the branches, not of the rubber.",
       names, sections.relaxation.band_Hz->first, sections.relaxation.band_Hz->second);
 }
 
 ResultTable table_of(const std::vector<Alike>& all) {
   ResultTable table;
   table.name = "relaxation";
-  table.title = "Sections that relax, bending stiffness against frequency";
+  table.title = "Viscoelastic sections: bending stiffness versus frequency";
   table.columns = {
       {"sections", ""}, {"frequency", "Hz"}, {"storage over quick", "1"}, {"loss factor", "1"}};
   for (const Alike& sections : all) {
@@ -97,8 +97,7 @@ ResultTable table_of(const std::vector<Alike>& all) {
     if (!fit.empty()) table.notes.push_back(names + ": Maxwell branches, " + fit + ".");
   }
   table.notes.emplace_back(
-      "Bending about y, with slits shut. Quick: the stiffness of motions quicker than all "
-      "branches.");
+      "Bending about y, with closed slits. Quick: stiffness for motions faster than all branches.");
   return table;
 }
 

@@ -65,7 +65,7 @@ RigidNeck equivalent_neck(const multibody::DeformableBody& neck, CaseSection::Di
   const PlaneCompliance c = compliance(neck, bending_plane(direction));
   const double top_m = neck.modes.interface("top").position_m.z();
   if (!(c.uF > 0) || !(c.uM > 0))
-    throw InputError("none of the neck's modes chosen bends it in the plane of the case");
+    throw InputError("none of the selected modes of the neck bends it in the plane of the case");
   const double length_m = c.uF / c.uM;
   const double lower = c.uF / (c.uM * c.uM);
   const double upper_compliance = c.tM - 1 / lower;

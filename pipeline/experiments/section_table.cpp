@@ -48,7 +48,7 @@ std::string slits_of(const Section& section) {
 ResultTable section_table(const Study& study) {
   ResultTable table;
   table.name = "sections";
-  table.title = "Sections: stiffness against bending and slits";
+  table.title = "Sections: bending stiffness and slits";
   table.columns = {
       {"section", ""}, {"bending stiffness", "N*m/rad"}, {"over the angle", ""}, {"slits", ""}};
   bool constant = false;
@@ -63,11 +63,11 @@ ResultTable section_table(const Study& study) {
         table.rows.push_back(std::move(row));
     }
   }
-  table.notes.emplace_back("Of quick motions and with slits shut.");
+  table.notes.emplace_back("Stiffness for fast motions and with closed slits.");
   if (constant)
     table.notes.emplace_back(
-        "A constant stiffness is that of small strains: rubber softens against bending as it is "
-        "bent, which bending_angles and bending_moments of a section can say.");
+        "A constant stiffness is that of small strains; rubber softens as it is bent, which "
+        "bending_angles and bending_moments of a section can describe.");
   return table;
 }
 

@@ -50,8 +50,8 @@ void require_neck_alone(const CaseSection& experiment) {
   model.forces.each_kind([&](const auto& elements) { forces += elements.size(); });
   if (model.bodies.size() != 2 || forces != model.forces.of<multibody::PointForce>().size())
     throw InputError("case." + experiment.name +
-                     ": the chain of substructures replaces a neck on the ground under forces "
-                     "[[force]]; take away other bodies and springs, or [substructures]");
+                     ": a chain of substructures can replace only a neck on the ground under "
+                     "[[force]]; remove other bodies and springs, or [substructures]");
 }
 
 }  // namespace

@@ -49,9 +49,9 @@ std::string stretch_note(const StaticEntry& entry) {
   const std::optional<Index> sample = passes(signals.stretch, kStretch);
   if (!sample) return {};
   return fmt::format(
-      "{}: the linear body's top moves along a straight line; from {:.0f} lbf and {:.0f} deg on "
-      "the neck's chord is more than 1 % longer than the neck. Beyond that its figures are those "
-      "of a straight extrapolation.",
+      "{}: the top of the linear body moves along a straight line; from {:.0f} lbf and {:.0f} deg "
+      "on, the chord of the neck is more than 1 % longer than the neck. Beyond that, the values "
+      "are linear extrapolations.",
       entry.experiment.name, signals.load[*sample] * lbf(),
       std::abs(signals.rotation[*sample]) * deg());
 }
@@ -88,7 +88,7 @@ ResultTable static_table(const std::vector<StaticEntry>& entries, bool has_own_m
 ResultTable ramp_table(const std::vector<StaticEntry>& entries) {
   ResultTable table;
   table.name = "ramp against statics";
-  table.title = "Static neck tester: the moving ramp against static solutions";
+  table.title = "Static neck tester: simulated ramp compared with static solutions";
   table.columns = {{"case", ""},
                    {"largest difference", "deg"},
                    {"of the rotation at the end", "%"},
@@ -108,8 +108,8 @@ ResultTable ramp_table(const std::vector<StaticEntry>& entries) {
                           fmt::format("{:.2f}", largest / rate * 1e3)});
   }
   table.notes = {
-      "The difference is what damping and inertia make of the ramp: a body with the damping ratio "
-      "zeta lags a slow one by 2 zeta / omega of its first mode."};
+      "The difference is the effect of damping and inertia on the ramp: a body with the damping "
+      "ratio zeta lags the static solution by 2 zeta / omega of its first mode."};
   return table;
 }
 
@@ -118,7 +118,7 @@ ResultTable chain_table(const std::vector<StaticEntry>& entries) {
   constexpr double kApart = 0.05;
   ResultTable table;
   table.name = "linear against chain";
-  table.title = "Static neck tester: one linear body against a chain of bodies";
+  table.title = "Static neck tester: one linear body compared with a chain of bodies";
   table.columns = {{"case", ""},
                    {"load", "lbf"},
                    {"rotation, linear", "deg"},
@@ -151,15 +151,14 @@ ResultTable chain_table(const std::vector<StaticEntry>& entries) {
         (linear.deflection - chain.deflection).array() / linear.deflection.array().abs().max(1e-12);
     if (const auto sample = passes(apart, kApart))
       table.notes.push_back(
-          fmt::format("{}: the top's deflection of the linear body is more than 5 % off the "
-                      "chain's from {:.0f} "
-                      "lbf and {:.0f} deg on.",
+          fmt::format("{}: the deflection at the top of the linear body differs by more than 5 % "
+                      "from that of the chain from {:.0f} lbf and {:.0f} deg on.",
                       entry.experiment.name, linear.load[*sample] * lbf(),
                       std::abs(chain.rotation[*sample]) * deg()));
   }
   table.notes.push_back(
-      "The chain's bodies are linear each in its own frame: rubber that stiffens at large strain, "
-      "slits that close and the cable are in neither.");
+      "Each body of the chain is linear in its own frame; rubber that stiffens at large strains, "
+      "slits that close and the cable are in neither model.");
   return table;
 }
 

@@ -89,16 +89,16 @@ const multibody::Joint* head_pin(const CaseSection& experiment) {
 std::string title_of(const CaseSection& experiment, const CaseSection& base) {
   const std::string variant = "Variant '" + experiment.variant + "'";
   if (experiment.impact_velocity_m_s != base.impact_velocity_m_s)
-    return variant + ", at another impact velocity, beside the cases it is made of";
+    return variant + ", at another impact velocity, compared with the cases that it is based on";
   if (has_rigid_neck(experiment))
-    return variant + ": rigid neck on two pivots beside the deformable neck";
+    return variant + ": rigid neck on two pivots, compared with the deformable neck";
   if (head_pin(experiment) != nullptr)
-    return variant + ": head on a pin with a spring, beside a fixed head";
+    return variant + ": head on a pin joint with a spring, compared with a fixed head";
   if (experiment.arm == CaseSection::Arm::rotating)
-    return "Arm rotating about its pivot, beside one that translates";
+    return "Rotating arm compared with a translating arm";
   if (experiment.pulse_scaling == PulseFit::duration)
-    return "Pulse scaled in duration, compared with scaled in amplitude";
-  return variant + " beside the cases it is made of";
+    return "Pulse scaled in duration, compared with a pulse scaled in amplitude";
+  return variant + " compared with the cases that it is based on";
 }
 
 /// Origin of the pivot's distance: by the variant, else by its base case, else by all cases.
@@ -113,29 +113,30 @@ std::string pivot_origin(const Study& study, const CaseSection& experiment) {
 
 std::vector<std::string> notes_of(const Study& study, const CaseSection& experiment) {
   std::vector<std::string> notes = {
-      "(baseline): the same figure of the case that the variant is made of."};
+      "(baseline): the same figure of the case that the variant is based on."};
   if (has_rigid_neck(experiment)) {
     notes.push_back(
-        "The parameters of the paper's rigid model are not published, nor are the curves of its "
-        "tests: the table says how far the models differ, not which is nearer to a neck.");
+        "Neither the parameters of the paper's rigid model nor the curves of its tests are "
+        "published; the table shows how much the models differ, not which is closer to a real "
+        "neck.");
     notes.push_back(
-        "Where a pivot's springs differ in the two directions, small motions are those of the side "
-        "to which the head hangs.");
+        "If the springs of a pivot differ in the two directions, small motions are computed with "
+        "the side to which the head hangs.");
   }
   if (!has_rigid_neck(experiment) && head_pin(experiment) != nullptr) {
-    notes.push_back(
-        "Origin of the spring by the study: " +
-        origins_of(study.parameters, "variant." + experiment.made_by + ".resistance") +
-        ". The paper proposes to find its parameters by trial. A pin across the plane of a lateral "
-        "test does not move.");
+    notes.push_back("Origin of the spring according to the study: " +
+                    origins_of(study.parameters, "variant." + experiment.made_by + ".resistance") +
+                    ". The paper proposes to find its parameters by trial. In a lateral test the "
+                    "pin does not move, since its axis lies in the plane of the test.");
     notes.push_back(
         "The paper: a system frequency of about 5 Hz and an effective damping of about 0.2; it "
         "ascribes a peak of the moment at about 50 ms, in flexion only, to the nodding blocks.");
   }
   if (experiment.arm == CaseSection::Arm::rotating)
     notes.push_back(
-        "A rotating arm starts from the undeformed neck: while it swings there is no equilibrium. "
-        "Origin of the distance of the neck from the pivot by the study: " +
+        "A case with a rotating arm starts from the undeformed neck, since there is no equilibrium "
+        "while the arm swings. Origin of the distance of the neck from the pivot according to the "
+        "study: " +
         pivot_origin(study, experiment) + ".");
   return notes;
 }
@@ -228,16 +229,16 @@ ResultTable rigid_neck_table(const Study& study, const fe_modal::ModalBody& body
       table.rows.push_back(rigid_row(name, lateral ? "lateral" : "fore-aft", *neck));
   }
   table.notes = {
-      "Flexion and extension: in the lateral plane to one side and to the other. Matched: the link "
-      "and springs that answer any static load at the neck's top as the modes used do, with their "
-      "mass and the first mode's damping."};
+      "Flexion and extension: in the lateral plane, bending to one side and to the other. "
+      "Equivalent: link and springs with the same response to static loads at the top of the neck "
+      "as the modes used, with their mass and the damping of the first mode."};
   return table;
 }
 
 ResultTable processor_table(const std::vector<PendulumEntry>& entries) {
   ResultTable table;
   table.name = "processor time";
-  table.title = "Processor time of the deformable neck over that of the rigid ones, measured";
+  table.title = "Measured ratio of the processor times of the deformable and the rigid necks";
   table.columns = {{"case", ""},
                    {"rigid neck", ""},
                    {"deformable", "ms"},
@@ -269,11 +270,11 @@ ResultTable processor_table(const std::vector<PendulumEntry>& entries) {
   }
   for (const auto& [neck, figures] : sums) add_row("all", neck, figures);
   table.notes = {
-      "Integration over the case's time at the study's tolerance, recorded at its end only, each "
-      "on "
-      "one thread. A measured time: it differs from run to run. Evaluations of the equations of "
-      "motion do not.",
-      "The paper: its deformable model typically takes 2 to 6 times the rigid one."};
+      "Integration over the duration of the case with the tolerance of the study, with output only "
+      "at the end, on one thread. Measured times differ from run to run; the numbers of "
+      "evaluations of the equations of motion do not.",
+      "According to the paper, the deformable model typically takes 2 to 6 times as long as the "
+      "rigid one."};
   return table;
 }
 

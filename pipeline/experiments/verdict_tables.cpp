@@ -111,8 +111,9 @@ ResultTable verdict_figure_table(const std::vector<JudgedTest>& tests) {
     add_note(table.notes, "Limits: " + test.test.rules.source + ".");
   }
   table.notes.emplace_back(
-      "Off centre: from the middle of the limits in half of their distance. Velocity and pulse are "
-      "conditions of a test: outside they are warned of and fail nothing.");
+      "Off centre: deviation from the middle of the limits, divided by half the distance of the "
+      "limits. Velocity and pulse are conditions of a test; if they are outside their limits, a "
+      "warning is given and the test does not fail.");
   return table;
 }
 

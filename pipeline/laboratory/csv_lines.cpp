@@ -44,7 +44,7 @@ bool CsvLines::next(std::vector<std::string>& cells) {
     cells = cells_of(line);
     if (columns_ == 0) columns_ = cells.size();
     if (cells.size() != columns_)
-      refuse("expected " + std::to_string(columns_) + " cells as in the line of names, found " +
+      refuse("expected " + std::to_string(columns_) + " cells as in the header line, found " +
              std::to_string(cells.size()) + kMarks);
     return true;
   }
@@ -74,7 +74,8 @@ std::vector<std::string> CsvLines::cells_of(const std::string& line) const {
     const bool is_quoted = at < text.size() && text[at] == '"';
     if (is_quoted) {
       for (++end;; ++end) {
-        if (end >= text.size()) refuse("a quote \" that begins a cell has no other at its end");
+        if (end >= text.size())
+          refuse("expected a closing quote \" at the end of a quoted cell, found none");
         if (text[end] == '"' && text.substr(end + 1, 1) != "\"") break;
         if (text[end] == '"') ++end;
         cell += text[end];
@@ -84,7 +85,7 @@ std::vector<std::string> CsvLines::cells_of(const std::string& line) const {
     end = std::min(text.find(',', at), text.size());
     const std::string_view rest = trimmed(text.substr(at, end - at));
     if (is_quoted && !rest.empty()) {
-      refuse("expected a comma behind the quote \" that ends a cell, found \"" +
+      refuse("expected a comma after the closing quote \" of a cell, found \"" +
              printable(std::string(rest)) + "\"");
     }
     cell += rest;

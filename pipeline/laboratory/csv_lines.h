@@ -37,7 +37,8 @@ class CsvLines {
   /// @throws InputError with the file and the last line read.
   [[noreturn]] void refuse(const std::string& problem) const;
 
-  static constexpr const char* kMarks = "; commas stand between cells, and decimals have a point";
+  static constexpr const char* kMarks =
+      "; cells are separated by commas, and decimals have a point";
 
  private:
   std::vector<std::string> cells_of(const std::string& line) const;

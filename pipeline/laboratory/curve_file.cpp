@@ -34,8 +34,9 @@ Columns columns_of(const CsvLines& file, const Cells& cells, const std::string& 
   Columns columns;
   const CsvHeader time = csv_header(cells[0]);
   if (time.unit.empty())
-    file.refuse("expected the time and its unit first, such as \"time [s]\", found \"" + cells[0] +
-                "\"");
+    file.refuse(
+        "expected the time with its unit in the first column, such as \"time [s]\", found \"" +
+        cells[0] + "\"");
   columns.index = csv_column(file, cells, column, "by its name");
   columns.header = csv_header(cells[columns.index]);
   try {
@@ -70,15 +71,18 @@ Curve read_curve(const std::filesystem::path& path, const std::string& column) {
   if (names_mme_test(path)) return read_mme_curve(path, column);
   CsvLines file(path);
   Cells cells;
-  if (!file.next(cells)) file.refuse("expected a line with the columns' names and units");
+  if (!file.next(cells))
+    file.refuse("expected a header line with the names and units of the columns");
   if (cells.size() < 2)
     file.refuse(std::string("expected the time and at least one column of values") +
                 CsvLines::kMarks);
   const bool is_plain = is_number(cells[0]);
   if (is_plain && (cells.size() > 2 || !column.empty()))
-    file.refuse("expected a line with the columns' names and units, such as \"time [s]\", since " +
-                (column.empty() ? std::string("there are several columns")
-                                : "the column '" + column + "' is asked for"));
+    file.refuse(
+        "expected a header line with the names and units of the columns, such as \"time [s]\", "
+        "since " +
+        (column.empty() ? std::string("there are several columns")
+                        : "the column '" + column + "' is requested"));
   const Columns columns = is_plain ? Columns() : columns_of(file, cells, column);
   std::vector<double> times_s;
   std::vector<double> values;
@@ -86,7 +90,7 @@ Curve read_curve(const std::filesystem::path& path, const std::string& column) {
     const double time_s = file.number(cells[0], columns.time_to_s);
     if (!times_s.empty() && !(time_s > times_s.back()))
       file.refuse("times must increase strictly, but " + cells[0] +
-                  " follows one that is not earlier");
+                  " is not later than the time before it");
     times_s.push_back(time_s);
     values.push_back(file.number(cells[columns.index], 1));
   }
@@ -116,9 +120,11 @@ bool needs_filter(const Curve& curve, multibody::ChannelClass wanted) {
   const MmeFilter& filter = *curve.filter;
   if (!filter.is_special && (!filter.passed || *filter.passed >= wanted))
     return filter.passed != wanted;
-  throw InputError(curve.label() + ": by the last letter of its code the channel has passed \"" +
-                   std::string(filter.text) + "\" already, which " + name_of(wanted) +
-                   " cannot be had from; take the channel as it was recorded, or no filter");
+  throw InputError(
+      curve.label() +
+      ": according to the last letter of its code, the channel is already filtered with \"" +
+      std::string(filter.text) + "\", from which " + name_of(wanted) +
+      " cannot be obtained; use the unfiltered channel, or no filter");
 }
 
 }  // namespace flexneck::pipeline

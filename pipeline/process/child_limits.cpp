@@ -35,7 +35,7 @@ std::uint64_t bytes_at_start() {
 void limit(__rlimit_resource_t resource, rlim_t soft, rlim_t hard) {
   const rlimit value{soft, hard};
   if (setrlimit(resource, &value) != 0) {
-    throw ComputationError("the system refuses to limit a child process");
+    throw ComputationError("the operating system does not allow limits on a child process");
   }
 }
 
@@ -52,7 +52,8 @@ void receive(int signal) {
 
 void limit_this_process(const ChildLimits& limits, pid_t parent) {
   if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0)
-    throw ComputationError("the system refuses to end a child process together with its parent");
+    throw ComputationError(
+        "the operating system cannot end a child process together with its parent");
   if (getppid() != parent) std::_Exit(EXIT_FAILURE);  // the parent ended before
   limit(RLIMIT_CORE, 0, 0);
   const rlim_t start = bytes_at_start();
@@ -68,7 +69,7 @@ void limit_this_process(const ChildLimits& limits, pid_t parent) {
 void limit_what_follows(unsigned processor_s) {
   rlimit memory{};
   if (getrlimit(RLIMIT_DATA, &memory) != 0)
-    throw ComputationError("the system does not tell the limits of a child process");
+    throw ComputationError("the operating system does not report the limits of a child process");
   limit(RLIMIT_DATA, memory.rlim_max, memory.rlim_max);
   rusage used{};
   getrusage(RUSAGE_SELF, &used);

@@ -29,7 +29,7 @@ Progress reporter(ChildReport::Kind kind) {
 
 void run_task(std::span<char*> arguments, const std::vector<ChildTask>& tasks) {
   if (arguments.size() < 1 + kOwnArguments) {
-    throw InputError(std::string(kChild) + " is how flexneck starts itself, not an option");
+    throw InputError(std::string(kChild) + " is reserved for internal use by flexneck");
   }
   const auto number = [&](std::size_t place) {
     return std::strtoull(arguments[place], nullptr, 10);

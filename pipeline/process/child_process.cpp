@@ -61,7 +61,7 @@ ChildProcess::ChildProcess(const std::filesystem::path& program,
                            const std::filesystem::path& temporary) {
   std::array<int, 2> pipe_ends{};
   if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) {
-    throw ComputationError("a pipe to a child process cannot be made: " +
+    throw ComputationError("a pipe to a child process cannot be created: " +
                            std::string(std::strerror(errno)));
   }
   FileDescriptor to_read(pipe_ends[0]);
@@ -125,7 +125,8 @@ ChildEnd ChildProcess::wait(const LineReceiver& on_line) {
     if (ended < 0 && errno == EINTR) ended = 0;
   }
   cleanup_.reset();  // where a signal has ended the child, this waits for the end of the process
-  if (ended < 0) throw ComputationError("a child process is lost: the system has ended it");
+  if (ended < 0)
+    throw ComputationError("a child process was lost: the operating system has ended it");
   id_ = -1;
   while (has_output(0)) read_lines(on_line);
   if (!unread_.empty()) on_line(std::exchange(unread_, {}));

@@ -28,10 +28,9 @@ fs::path command_program() {
       if (fs::is_regular_file(at / name)) return at / name;
     if (at == at.root_path()) break;
   }
-  throw ComputationError(
-      module.string() +
-      ": there is no command flexneck above it, which reads files of others in a "
-      "process of its own; install flexneck again");
+  throw ComputationError(module.string() +
+                         ": the program flexneck, which reads foreign files in a process of its "
+                         "own, was not found above it; reinstall flexneck");
 }
 
 namespace {
@@ -55,17 +54,18 @@ std::string death_of(const ChildEnd& end, const ChildLimits& limits) {
     const auto in_GB = [](std::uint64_t bytes) {
       return fmt::format("{:.1f} GB", static_cast<double>(bytes) / 1e9);
     };
-    return "wants more than " + in_GB(limits.memory_bytes) + " of memory for it" +
+    return "needs more than " + in_GB(limits.memory_bytes) + " of memory to read it" +
            (limits.later_memory_bytes > 0
-                ? ", or more than " + in_GB(limits.later_memory_bytes) + " for what it makes of it"
+                ? ", or more than " + in_GB(limits.later_memory_bytes) + " to process it"
                 : "");
   }
   if (end.signal == SIGXCPU)
-    return fmt::format("is not done with it after {:.0f} s", end.processor_s);
-  if (end.signal == SIGALRM) return fmt::format("is not done with it after {:.0f} s", end.clock_s);
-  if (end.signal == SIGKILL) return "was killed while it read it, perhaps for want of memory";
-  if (end.signal != 0) return fmt::format("crashes on it ({})", strsignal(end.signal));
-  return fmt::format("gives up on it (exit code {})", end.exit_code);
+    return fmt::format("did not finish reading it within {:.0f} s", end.processor_s);
+  if (end.signal == SIGALRM)
+    return fmt::format("did not finish reading it within {:.0f} s", end.clock_s);
+  if (end.signal == SIGKILL) return "was killed while reading it, possibly due to lack of memory";
+  if (end.signal != 0) return fmt::format("crashed while reading it ({})", strsignal(end.signal));
+  return fmt::format("failed to read it (exit code {})", end.exit_code);
 }
 
 /// Reports of a child that decide how the task ends.
@@ -110,7 +110,7 @@ void run_isolated(const IsolatedTask& task, const std::filesystem::path& tempora
   }
   throw InputError(
       fmt::format("{}: {} {}{}; {}", task.file.string(), task.library, death_of(end, task.limits),
-                  last.chatter.empty() ? "" : ", last it said: " + last.chatter, task.advice));
+                  last.chatter.empty() ? "" : ", its last message: " + last.chatter, task.advice));
 }
 
 }  // namespace flexneck::pipeline

@@ -57,7 +57,7 @@ ReadableFile::ReadableFile(const fs::path& path, std::string_view format) : path
                  .clock_s = static_cast<unsigned>(20 * (10 + (size >> 20U)))};
   task.file = path;
   task.library = "HDF5";
-  task.advice = "it is damaged, make it again";
+  task.advice = "it is damaged; make it again";
   run_isolated(task, folder_->path(), {});
 }
 
@@ -89,7 +89,8 @@ multibody::HistoryFile read_history(const fs::path& path) {
 void require_whole_run(const fs::path& path, const multibody::History& history) {
   if (history.incomplete.empty()) return;
   throw ComputationError(
-      path.string() + ": the run ended early, what there is of it is kept: " + history.incomplete);
+      path.string() +
+      ": the run ended early; the results up to that time are kept: " + history.incomplete);
 }
 
 }  // namespace flexneck::pipeline

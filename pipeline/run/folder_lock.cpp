@@ -54,8 +54,7 @@ FolderLock::FolderLock(fs::path folder, const std::string& command, const Progre
   }
   if (!is_fixed_) {
     warn(folder_.string() +
-         ": this file system has no locks; see to it that no other command "
-         "writes there");
+         ": this file system has no locks; make sure that no other command writes to this folder");
   }
 }
 

@@ -51,7 +51,7 @@ IsolatedTask task_of(const StructureSection& structure, unsigned meshes) {
   if (std::holds_alternative<mesher::ScriptMeshOptions>(structure.source)) return task;
   const ForeignFormat format = mesher::foreign_format_of(task.file);
   const bool is_shape = format == ForeignFormat::step || format == ForeignFormat::brep;
-  task.advice = "if it is not damaged, write it anew or in another format";
+  task.advice = "if it is not damaged, write it again or in another format";
   task.limits.processor_s =
       meshes * static_cast<unsigned>(10 + (is_shape ? 10 : 1) * (size >> 20U));
   task.limits.clock_s = kClockPerProcessor * task.limits.processor_s;
@@ -118,8 +118,8 @@ std::vector<MeshOutcome> make_meshes(const std::vector<const Study*>& studies,
   if (task.library == kShapeLibraries) lines.chatter = collector_of(complaints);
   run_isolated(task, folder.path(), lines);
   if (!complaints.empty()) {
-    console.warning(task.file.string() + ": OpenCASCADE complains: " + complaints +
-                    "; compare volumes and sets with what they should be");
+    console.warning(task.file.string() + ": OpenCASCADE reports: " + complaints +
+                    "; check the volumes and sets of the mesh");
   }
   for (std::size_t k = 0; k < studies.size(); ++k) outcomes.push_back(outcome_of(order, k));
   return outcomes;

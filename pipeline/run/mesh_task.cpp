@@ -43,10 +43,10 @@ void limit_meshing(const fs::path& shape, double nodes) {
   constexpr double kPerNode_s = 4e-4;
   constexpr double kBytesPerNode = 800;
   if (!std::isfinite(nodes)) {
-    throw InputError("its volumes, surfaces or curves have no finite size");
+    throw InputError("expected volumes, surfaces and curves of finite size");
   }
   require_memory(fmt::format("a mesh of about {:.3g} nodes", nodes), kBytesPerNode * nodes,
-                 "enlarge mesh.size, or correct the shape's unit");
+                 "increase mesh.size, or correct the unit of the shape");
   const double megabytes = static_cast<double>(size_of_file(shape)) / (1U << 20U);
   limit_what_follows(
       static_cast<unsigned>(std::ceil(kBase_s + kPerMegabyte_s * megabytes + kPerNode_s * nodes)));

@@ -19,8 +19,8 @@ namespace {
 constexpr const char* kFormat = "flexneck choice of a study";
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& found) {
-  throw InputError(path.string() + ": expected the study that the folder was made with, found " +
-                   found + "; name the study, or remove the file");
+  throw InputError(path.string() + ": expected the record of the study of this folder, found " +
+                   found + "; name the study on the command line, or remove the file");
 }
 
 nlohmann::ordered_json json_of(const fs::path& folder, const StudyChoice& choice) {
@@ -94,8 +94,8 @@ void require_rememberable(const fs::path& folder, const StudyChoice& choice) {
     json_of(folder, choice).dump();
   } catch (const nlohmann::json::type_error&) {
     throw InputError(choice.study.string() +
-                     ": expected a path in UTF-8, by which the folder of results names its study; "
-                     "rename the file, or the folder that it is in");
+                     ": expected a path in UTF-8, which the folder of results records; rename the "
+                     "file or its folder");
   }
 }
 

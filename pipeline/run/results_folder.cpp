@@ -79,8 +79,9 @@ void ResultsFolder::make() const {
   std::error_code error;
   fs::create_directories(path_, error);
   if (error || !fs::is_directory(path_)) {
-    throw InputError(path_.string() + ": cannot be made a folder for results (" +
-                     (error ? error.message() : "it is a file") + "); choose another with -o");
+    throw InputError(path_.string() + ": the folder for results cannot be created (" +
+                     (error ? error.message() : "a file has this name") +
+                     "); choose another with -o");
   }
 }
 
@@ -205,7 +206,7 @@ void require_same_inputs(const fs::path& file, const Provenance& made_from, cons
   const std::vector<Parameter>& made_with = made_from.parameters;
   for (const Parameter& then : made_with) {
     if (!matters(then.key)) continue;
-    const std::string with = "with " + then.key + " = " + then.value + ", the study has ";
+    const std::string with = "with " + then.key + " = " + then.value + ", but the study has ";
     const Parameter* now = find(study.parameters, then.key);
     if (now == nullptr) now = find(study.defaults, then.key);
     if (now == nullptr) refuse(with + "none");
@@ -213,14 +214,14 @@ void require_same_inputs(const fs::path& file, const Provenance& made_from, cons
   }
   for (const Parameter& now : expected) {
     if (find(made_with, now.key) == nullptr && matters(now.key))
-      refuse("without " + now.key + ", the study has " + now.value);
+      refuse("without " + now.key + ", but the study has " + now.value);
   }
   std::vector<InputFile> files = sources_now(made_from, study);
   files.insert(files.end(), study.tables.begin(), study.tables.end());
   for (const InputFile& now : files) {
     const auto& inputs = made_from.inputs;
     if (names(made_from, now.name) && std::find(inputs.begin(), inputs.end(), now) == inputs.end())
-      refuse("from another " + now.name + " than there is now");
+      refuse("from a different " + now.name + " than the current one");
   }
 }
 
@@ -252,8 +253,9 @@ std::string replaced_values(const fs::path& file, const FileFormat& format, cons
     const Parameter* const after = find(now.parameters, key);
     if (!matters(key) || text(before) == text(after)) return {};
     return file.string() + ": was made with " + key + " = " + text(before) + ", now with " +
-           text(after) + ": other results in the folder are of the former; 'flexneck run' makes " +
-           "all of them of one study";
+           text(after) +
+           "; other results in the folder were made with the former value; 'flexneck run' makes " +
+           "all of them consistent";
   };
   for (const auto* const parameters : {&then, &now.parameters}) {
     for (const Parameter& parameter : *parameters) {

@@ -57,8 +57,8 @@ bool says(const std::string& text, const char* words) {
 }
 
 bool is_refusal_of_input(const std::string& text) {
-  return says(text, "contradict one another") || says(text, "form a cycle") ||
-         says(text, "on the axis of") || says(text, "carries a mass that nothing holds");
+  return says(text, "contradict each other") || says(text, "form a cycle") ||
+         says(text, "on the axis of") || says(text, "carries a mass with an unconstrained motion");
 }
 
 /// Fraction of the scale below which an eigenvalue may be lost in rounding, like a mechanism's.
@@ -97,7 +97,7 @@ std::optional<std::string> compare_modes(Case& drawn, const mesher::Mesh& given,
   } catch (const ComputationError& error) {
     // The frequencies are too far apart for the digits of a solve, as the message says.
     if (says(error.what(), "has not converged") ||
-        (says(error.what(), "too near to it") &&
+        (says(error.what(), "too close to singular") &&
          moves_softly(meant, size_m, wave_1_s2, options.mode_count))) {
       drawn.was_refused = true;
       return std::nullopt;

@@ -155,7 +155,7 @@ constexpr double kBesideLarger = 1e4;
 /// Refusals that are right: such bumps, and an impact that the implicit method does not resolve, as
 /// the energy balance shows.
 bool is_refused_rightly(const Drawn& of, const std::string& text) {
-  if (of.is_implicit && text.find("balance of energy") != std::string::npos) return true;
+  if (of.is_implicit && text.find("energy balance") != std::string::npos) return true;
   if (of.drive != Drive::displacement) return false;
   const auto [least, largest] = std::minmax_element(
       of.pulses.begin(), of.pulses.end(),

@@ -82,7 +82,7 @@ TEST_CASE("NAFEMS FV52: a thick plate on its lower edges keeps three rigid motio
   options.formulation.of_others = Formulation::displacement;
   const ModalBody body = analyse_modes(mesh, options, {});
   CHECK(body.frequencies_Hz.head(3).isZero(0));
-  CHECK(body.boundary == "fixed: the edges; slides along x and y, turns about z");
+  CHECK(body.boundary == "fixed: the edges; slides along x and y, rotates about z");
   for (std::size_t k = 0; k < kTargets_Hz.size(); ++k) {
     const double found = body.frequencies_Hz[static_cast<Eigen::Index>(3 + k)];
     CAPTURE(k, found);
@@ -201,7 +201,7 @@ TEST_CASE("half of a neck on its bolts, between planes of symmetry, has modes of
   check_among(part.frequencies_Hz, whole.frequencies_Hz, kSame);
   // A half that is free on its plane slides along it and rotates about its normal.
   const ModalBody free = modes_of(half.mesh, 5);
-  CHECK(free.boundary == "fixed: the plane of symmetry y; slides along x and z, turns about y");
+  CHECK(free.boundary == "fixed: the plane of symmetry y; slides along x and z, rotates about y");
   CHECK(free.frequencies_Hz.head(3).isZero(0));
   CHECK(free.frequencies_Hz[3] > 0);
 }

@@ -89,8 +89,8 @@ TEST_CASE("what an operator throws comes out of the solver as it was, and the ne
 TEST_CASE("PETSc's want of memory is told as such, with the step, the amount and a way out") {
   CHECK_THROWS_AS(require(PETSC_ERR_MEM, "filling a matrix"), OutOfMemory);
   CHECK_THROWS_WITH(require(PETSC_ERR_MEM, "filling a matrix"),
-                    Catch::StartsWith("memory runs out while filling a matrix: ") &&
-                        Catch::Contains(" GB are free; take a coarser mesh"));
+                    Catch::StartsWith("out of memory while filling a matrix: ") &&
+                        Catch::Contains(" GB are free; use a coarser mesh"));
   CHECK_THROWS_WITH(require(PETSC_ERR_ARG_SIZ, "filling a matrix"),
                     Catch::Contains("PETSc failed while filling a matrix"));
 }

@@ -84,7 +84,7 @@ TEST_CASE("a factor that memory does not hold is refused by its symbolic part, w
   for (const Solver solver : {Solver::cholmod, Solver::mumps}) {
     const AddressLimit limit(0.9 * sizeof(double) * entries);
     CHECK_THROWS_WITH(LinearSolver(system.stiffness.get(), 0, {}, solver),
-                      Catch::StartsWith("factorising the stiffness takes about ") &&
+                      Catch::StartsWith("factorising the stiffness matrix needs about ") &&
                           Catch::Contains("out of core"));
   }
   CHECK_NOTHROW(LinearSolver(system.stiffness.get(), 0));

@@ -77,7 +77,8 @@ TEST_CASE("what is wrong with a matrix is said with file and line") {
   check_refused(".mtx", "1 1 1\n", "MatrixMarket");
   check_refused(".mtx", head + "skew-symmetric\n1 1 0\n", "symmetric");
   check_refused(".mtx", head + "symmetric\n2 2 2\n1 1 1\n", ":4: the file ends too early");
-  check_refused(".mtx", head + "symmetric\n2 2 1\n1 2 1\n", ":3: expected entries of the lower");
+  check_refused(".mtx", head + "symmetric\n2 2 1\n1 2 1\n",
+                ":3: expected only entries of the lower");
   check_refused(".mtx", head + "symmetric\n2 2 1\n3 1 1\n", ":3: expected a whole number");
   check_refused(".mtx", head + "symmetric\n2 2 1\n1 1 x\n", ":3: expected a number");
   check_refused(".mtx", head + "symmetric\n2 2 1\n1 1 nan\n", "not finite");
@@ -101,7 +102,8 @@ TEST_CASE("sizes that a file cannot have are refused before they take memory") {
   const TemporaryFolder folder;
   std::ofstream(folder / "table.mtx")
       << "%%MatrixMarket matrix array real general\n2147483647 2147483647\n1\n";
-  CHECK_THROWS_WITH(read_positions(folder / "table.mtx"), Contains(":2: more numbers"));
+  CHECK_THROWS_WITH(read_positions(folder / "table.mtx"),
+                    Contains(":2: the sizes require more numbers"));
   for (const char* const name : {"folder.mtx", "folder.petsc"}) {
     std::filesystem::create_directory(folder / name);
     CHECK_THROWS_AS(read_matrix(folder / name), InputError);

@@ -48,20 +48,20 @@ TEST_CASE("a hinge is named with its part and its axis, fixed or free") {
   const mesher::Mesh mesh =
       post_and_pin([](const Eigen::Vector3d& x) { return std::abs(x[0] - 0.05) < 1e-9; });
   CHECK_THAT(refusal(mesh, "bottom"),
-             Contains("mechanism: part 'pin' turns freely about y through (0.05, 0, 0.1) m;"));
+             Contains("mechanism: part 'pin' rotates freely about y through (0.05, 0, 0.1) m;"));
   CHECK_THAT(refusal(mesh, "top"),
-             Contains("mechanism: part 'post' turns freely about y through (0.05, 0, 0.1) m;"));
+             Contains("mechanism: part 'post' rotates freely about y through (0.05, 0, 0.1) m;"));
   // The pin of brass is heavier, so the post moves relative to it.
-  CHECK_THAT(refusal(mesh, ""), Contains("part 'post' turns freely about y"));
+  CHECK_THAT(refusal(mesh, ""), Contains("part 'post' rotates freely about y"));
 }
 
 TEST_CASE("a part that hangs by a point, or by nothing, is named") {
   CHECK_THAT(
       refusal(post_and_pin([](const Eigen::Vector3d& x) { return x.head<2>().norm() < 1e-9; }),
               "bottom"),
-      Contains("part 'pin' moves freely in 3 ways"));
+      Contains("part 'pin' moves freely in 3 independent ways"));
   CHECK_THAT(refusal(post_and_pin([](const Eigen::Vector3d&) { return false; }), "bottom"),
-             Contains("part 'pin' is not fixed: it moves freely in every way"));
+             Contains("part 'pin' is not fixed: it can move freely in all six degrees of freedom"));
 }
 
 TEST_CASE("nodes a little off the axis of a hinge hold the body, as the square of their distance") {

@@ -199,7 +199,7 @@ TEST_CASE("what breaks an identity of every modal body is refused by its dataset
        [](ModalBody& b) { b.invariants.G[1](0, 2) += 1e-11; }},
       {"/invariants/N: expected that [0, 2] is minus [2, 0]",
        [](ModalBody& b) { b.invariants.N[2].y() += 1e-11; }},
-      {"/invariants/N: expected that [0, 1] has the antisymmetric part",
+      {"/invariants/N: expected that [0, 1] matches the antisymmetric part",
        [](ModalBody& b) {
          b.invariants.N[1] *= -1;
          b.invariants.N[3] *= -1;
@@ -224,7 +224,7 @@ TEST_CASE("what breaks an identity of every modal body is refused by its dataset
          b.interfaces[1].response->mass(1, 2) += 1;
          b.interfaces[1].response->mass(2, 1) += 1;
        }},
-      {"/interfaces/tip/compliance: expected that the compliance less what the modes have",
+      {"/interfaces/tip/compliance: expected that the static compliance minus that of the modes",
        [](ModalBody& b) { b.interfaces[1].translation *= 2; }},
       {"/interfaces/tip/response_mass: expected that [2, 1]",
        [](ModalBody& b) { b.interfaces[1].response->mass(1, 2) += 0.01; }},

@@ -154,7 +154,7 @@ TEST_CASE(
   options.fixed_set = "edge";
   CHECK_THROWS_AS(analyse_modes(mesh, options, {}), InputError);
   CHECK_THROWS_WITH(analyse_modes(mesh, options, {}),
-                    Catch::Contains("attached to a body that turns about"));
+                    Catch::Contains("attached to a body that rotates about"));
 }
 
 TEST_CASE("what an analysis takes is estimated within a fifth of what was measured") {
@@ -177,7 +177,7 @@ TEST_CASE("the finer mesh of a check is refused where it does not fit") {
   ModalOptions options;
   CHECK_NOTHROW(check_memory(mesh, options));
   options.check = true;
-  CHECK_THROWS_WITH(check_memory(mesh, options), Catch::Contains("leave out modes.check"));
+  CHECK_THROWS_WITH(check_memory(mesh, options), Catch::Contains("omit modes.check"));
 }
 
 }  // namespace flexneck::fe_modal

@@ -94,7 +94,7 @@ TEST_CASE(
   add_prestress(pulled, {});
   CHECK_FALSE(buckling_factor(pulled));
   CHECK_THROWS_WITH(first_Hz(mesh, column_under(-1.25 * critical)),
-                    Contains("buckles under its prestress, at 0.8 of the loads"));
+                    Contains("buckles under its prestress at 0.8 times the loads"));
 }
 
 TEST_CASE("a prestress beyond small displacements is told with its strain") {
@@ -108,8 +108,8 @@ TEST_CASE("a prestress beyond small displacements is told with its strain") {
   const double area = kThickness * kDepth;
   CHECK(told(0.05 * kYoung * area).empty());
   CHECK_THAT(told(0.6 * kYoung * area),
-             Contains("static step of the prestress strains the body by up to 0.6") &&
-                 Contains("lessen the loads"));
+             Contains("static step of the prestress causes strains of up to 0.6") &&
+                 Contains("reduce the loads"));
 }
 
 TEST_CASE("a prestressed body is solved for by MUMPS and refined for the error of its mesh, too") {

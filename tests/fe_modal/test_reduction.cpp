@@ -242,18 +242,17 @@ TEST_CASE("a basis that the boundary or the interfaces do not allow is refused")
     return "";
   };
   using Catch::Contains;
-  CHECK_THAT(complaint(free_block(BasisKind::residual, 9)), Contains("take 'inertia-relief'"));
-  CHECK_THAT(complaint(fixed(BasisKind::inertia_relief, 9)),
-             Contains("'fixed: bottom' none is left"));
+  CHECK_THAT(complaint(free_block(BasisKind::residual, 9)), Contains("use 'inertia-relief'"));
+  CHECK_THAT(complaint(fixed(BasisKind::inertia_relief, 9)), Contains("'fixed: bottom' has none"));
   CHECK_THAT(complaint(free_block(BasisKind::inertia_relief, 5)),
-             Contains("ask for 6 modes or more"));
+             Contains("request 6 modes or more"));
   CHECK_THAT(complaint(fixed(BasisKind::craig_bampton, 103)), Contains("108 degrees of freedom"));
   ModalOptions options = fixed(BasisKind::residual, 3);
   options.basis_interfaces = {"tp"};
   CHECK_THAT(complaint(options), Contains("'tp'") && Contains("tip"));
   options = fixed(BasisKind::residual, 3);
   options.interfaces.clear();
-  CHECK_THAT(complaint(options), Contains("name an interface"));
+  CHECK_THAT(complaint(options), Contains("define an interface"));
 }
 
 }  // namespace flexneck::fe_modal

@@ -147,10 +147,9 @@ TEST_CASE("rigid interfaces that cannot be are refused by name") {
                     "rigid interface 'tip' has nodes that are fixed");
   options = fixed_with_rigid_tip(BasisKind::normal, 2);
   options.interfaces.push_back({"again", "top", kTip, true});
-  CHECK_THROWS_WITH(
-      analyse_modes(mesh, options, {}),
-      Contains("rigid interface 'again' and rigid interface 'tip' contradict one another: both "
-               "determine x of the node at ("));
+  CHECK_THROWS_WITH(analyse_modes(mesh, options, {}),
+                    Contains("rigid interface 'again' and rigid interface 'tip' contradict each "
+                             "other: both determine x of the node at ("));
 }
 
 }  // namespace flexneck::fe_modal

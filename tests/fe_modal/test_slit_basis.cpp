@@ -210,13 +210,13 @@ TEST_CASE("slits that open and close are refused where they cannot be") {
   ModalOptions options = options_with(SlitMotions::openings);
   refused(slit_block(true), options, "no open slit");
   options.mode_count = 2;
-  refused(slit_block(false), options, "with no modes");
+  refused(slit_block(false), options, "without modes");
   options.basis = BasisKind::residual;
   options.check = true;
   refused(slit_block(false), options, "completeness");
   options = options_with(SlitMotions::openings);
   options.interfaces.front().is_rigid = true;
-  refused(slit_block(false), options, "no rigid interface");
+  refused(slit_block(false), options, "not supported with rigid interfaces");
 }
 
 }  // namespace flexneck::fe_modal

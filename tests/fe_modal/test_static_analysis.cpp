@@ -242,7 +242,7 @@ TEST_CASE("loads that fit neither mesh nor supports are refused by their names")
   hinge.fixed_set.clear();
   hinge.fixed_directions = {{"bottom", {true, true, false}}};
   refused(hinge, {"weight", GravityLoad{{0, 0, -1}}},
-          "the body slides along z, turns about x and y");
+          "the body slides along z, rotates about x and y");
 }
 
 }  // namespace flexneck::fe_modal

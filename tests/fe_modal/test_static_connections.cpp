@@ -121,25 +121,27 @@ TEST_CASE("what small motions of couplings and springs leave out is refused") {
   };
   ModalOptions options;
   options.prestress = loads();
-  CHECK_THAT(refusal([&] { analyse_modes(mesh, options, {}); }),
-             Contains("a prestress is not offered with 1 reference point, 1 coupling, 3 springs"));
+  CHECK_THAT(
+      refusal([&] { analyse_modes(mesh, options, {}); }),
+      Contains("a prestress is not supported with 1 reference point, 1 coupling, 3 springs"));
   options.prestress.clear();
   options.interfaces = {{"tip", "top"}};
   options.geometric_stiffness = true;
-  CHECK_THAT(refusal([&] { analyse_modes(mesh, options, {}); }),
-             Contains("the geometric stiffness under unit loads is not offered with 1 reference"));
+  CHECK_THAT(
+      refusal([&] { analyse_modes(mesh, options, {}); }),
+      Contains("the geometric stiffness under unit loads is not supported with 1 reference"));
   mesher::Mesh plain = mesh;
   plain.connections = {};
   options.fixed_set = "bottom";
   options.interfaces[0].is_rigid = true;
   CHECK_THAT(refusal([&] { analyse_modes(plain, options, {}); }),
-             Contains("under unit loads is not offered with 1 reference point, 1 coupling"));
+             Contains("under unit loads is not supported with 1 reference point, 1 coupling"));
   ModalOptions fixed;
   fixed.fixed_directions = {{"bottom", {true, false, false}}};
   CHECK_THAT(refusal([&] {
                analyse_static(mesh, fixed, {{"lift", SupportLoad{"bottom", {1e-3, 0, 0}}}}, {});
              }),
-             Contains("supports that move are not offered at nodes of"));
+             Contains("supports with a displacement are not possible at nodes of"));
 }
 
 }  // namespace flexneck::fe_modal

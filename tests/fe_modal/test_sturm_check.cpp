@@ -96,7 +96,8 @@ TEST_CASE(
       }
       const bool cuts = fixed ? truth_Hz[count] < truth_Hz[count - 1] * (1 + 1e-6)
                               : count < 6 || truth_Hz[count] < truth_Hz[count - 1] * (1 + 1e-6);
-      CHECK(cuts == (body.completeness.find("the count cuts the ") != std::string::npos));
+      CHECK(cuts ==
+            (body.completeness.find("the number of modes splits the ") != std::string::npos));
       CHECK(warnings.size() == (cuts ? 1 : 0));
       CHECK(body.completeness.starts_with(at == std::string::npos ? "not checked" : "checked"));
       // The first pair, and rigid-body motions, have no complete modes below them.
@@ -120,12 +121,13 @@ TEST_CASE("without the check, too, a count that cuts a cluster is warned about")
     return lines;
   };
   for (const Solver solver : {Solver::cholmod, Solver::mumps}) {
-    CHECK_THAT(warnings_of(1, "bottom", solver),
-               Catch::Contains("the number of modes, 1, cuts a cluster of equal frequencies at "));
+    CHECK_THAT(
+        warnings_of(1, "bottom", solver),
+        Catch::Contains("the number of modes, 1, splits a cluster of equal frequencies at "));
     CHECK(warnings_of(2, "bottom", solver).empty());
-    CHECK_THAT(warnings_of(3, "", solver), Catch::Contains("ask for at least 6"));
+    CHECK_THAT(warnings_of(3, "", solver), Catch::Contains("request at least 6"));
     CHECK(warnings_of(6, "", solver).empty());
-    CHECK_THAT(warnings_of(7, "", solver), Catch::Contains("or for 6"));
+    CHECK_THAT(warnings_of(7, "", solver), Catch::Contains("or only 6"));
   }
 }
 
@@ -137,7 +139,7 @@ TEST_CASE("all modes that a body has are found and told as all") {
   options.check = true;
   options.mode_count = 54;
   const ModalBody body = analyse_modes(mesh, options, {});
-  CHECK(body.completeness == "checked: all modes that there are");
+  CHECK(body.completeness == "checked: all modes of the structure were found");
   // A finer mesh either has the shape or lacks it, for modes within the element as well.
   for (const ModeRecord& mode : body.modes) {
     REQUIRE(mode.mesh_error);

@@ -14,7 +14,8 @@ TEST_CASE("what does not fit onto the disk is refused with what it takes and wha
   CHECK(available_disk("") > 0);
   CHECK_NOTHROW(require_disk(folder.path(), "a little", 1, "do"));
   CHECK_THROWS_AS(require_disk(folder.path(), "a lot", 1e20, "take less"), InputError);
-  CHECK_THROWS_WITH(require_disk(folder.path(), "a lot", 1e20, "take less"),
-                    Contains(folder.path().string() + ": a lot takes about 1e+11 GB of the disk") &&
-                        Contains("are free: take less"));
+  CHECK_THROWS_WITH(
+      require_disk(folder.path(), "a lot", 1e20, "take less"),
+      Contains(folder.path().string() + ": a lot needs about 1e+11 GB of disk space") &&
+          Contains("are free; take less"));
 }

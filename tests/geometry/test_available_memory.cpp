@@ -44,8 +44,8 @@ TEST_CASE("what does not fit is refused with what it takes and what there is") {
   CHECK_NOTHROW(require_memory("a little", 1e3, "do"));
   CHECK_THROWS_AS(require_memory("a lot", 1e18, "take less"), InputError);
   CHECK_THROWS_WITH(require_memory("a lot", 1e18, "take less"),
-                    Catch::StartsWith("a lot takes about 1e+09 GB of memory, ") &&
-                        Catch::EndsWith(" are free: take less"));
+                    Catch::StartsWith("a lot needs about 1e+09 GB of memory, ") &&
+                        Catch::EndsWith(" are free; take less"));
 }
 
 }  // namespace flexneck

@@ -68,14 +68,16 @@ TEST_CASE("what is not in the file, or more than fits, is refused before it is r
   check_refused("lzf", "found filter 32000");
   check_refused("unwritten", "was never written");
   check_refused("holes", "was never written");
-  check_refused("giant", "is larger than its file can hold");
-  check_refused("outside", "found them in another one");
-  check_refused("virtual", "found them in another one");
-  check_refused("link", "found a link to another place");
-  check_refused("circle", "found a link to another place");
+  check_refused("giant", "is larger than the file");
+  check_refused("outside", "found external storage");
+  check_refused("virtual", "found external storage");
+  check_refused("link", "found a soft or external link");
+  check_refused("circle", "found a soft or external link");
   CHECK(file.members("/refused").size() == 8);
-  CHECK_THROWS_WITH(file.read_integers("/integers/beyond", {2}), Contains("beyond their range"));
-  CHECK_THROWS_WITH(file.read_integers("/integers/unsigned", {2}), Contains("beyond their range"));
-  CHECK_THROWS_WITH(file.integer_attribute("/", "huge"), Contains("beyond the range"));
+  CHECK_THROWS_WITH(file.read_integers("/integers/beyond", {2}),
+                    Contains("found a value out of range"));
+  CHECK_THROWS_WITH(file.read_integers("/integers/unsigned", {2}),
+                    Contains("found a value out of range"));
+  CHECK_THROWS_WITH(file.integer_attribute("/", "huge"), Contains("out of the range"));
   CHECK_THROWS_WITH(file.string_attribute("/", "many"), Contains("to have one value"));
 }

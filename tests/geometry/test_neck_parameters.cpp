@@ -88,7 +88,7 @@ TEST_CASE("only offsets may be zero") {
 TEST_CASE("plates that leave no height for the rubber are refused with both sides in inches") {
   // 1.357 + 3 * 1.333 + 0.306 = 5.662
   CHECK_THAT(refusal([](NeckParameters& neck) { neck.plate_thickness = 1.333 * kInch; }),
-             Contains("no height for the rubber") && Contains("5.662 in") &&
+             Contains("no height remains for the rubber") && Contains("5.662 in") &&
                  Contains("must be less than length = 5.66 in"));
 }
 

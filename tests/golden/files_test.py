@@ -34,7 +34,7 @@ DESCRIPTIONS = {
     "mesh.h5": ["flexneck mesh", "32", "Node set clamp: 8 nodes", "Face set tip: 1 faces"],
     "modes.h5": ["flexneck modal body", "mode 1", "70.465", "residual 6", "mass 0.81 kg",
                  "no mode is missing below 798.98 Hz"],
-    "swing.h5": ["flexneck history", "11 times from 0 to 0.01 s", "35.577", "52.987", "0.00052161"],
+    "swing.h5": ["flexneck history", "11 output times from 0 to 0.01 s", "35.577", "52.987", "0.00052161"],
     "static.json": ["Static neck tester", "flexion", "71.416", "2463.4"],
     "verification.json": ["bending 1", "35.915", "36.1", "effective damping"],
 }

@@ -82,7 +82,7 @@ class Installed(unittest.TestCase):
         finally:
             aside.rename(mesher)
         self.assertEqual((code, text.count("\n")), (3, 1))
-        self.assertIn("there is no lib/flexneck/flexneck-mesher beside or above it; install flexneck again", text)
+        self.assertIn("there is no lib/flexneck/flexneck-mesher beside or above it; reinstall flexneck", text)
 
     def test_the_built_in_study_and_regulations_are_found(self):
         code, text = self.flexneck("study")
@@ -115,7 +115,7 @@ class Installed(unittest.TestCase):
     def test_a_name_that_is_nowhere_is_told(self):
         code, text = self.flexneck("run", "hybrid3_d")
         self.assertEqual((code, text.count("\n")), (2, 1))
-        self.assertIn("no such file, and no shipped study or model 'hybrid3_d' (did you mean 'hybrid3_", text)
+        self.assertIn("no such file, and there is no shipped study or model 'hybrid3_d' (did you mean 'hybrid3_", text)
 
     def test_the_manual_page_has_every_command_and_option(self):
         page = self.one("flexneck.1")

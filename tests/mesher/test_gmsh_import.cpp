@@ -210,7 +210,7 @@ TEST_CASE("a .msh without nodes or without elements is refused before gmsh reads
     const std::string end = "$End" + section + "\n";
     without.erase(begin, without.find(end) + end.size() - begin);
     CHECK_THAT(testing::refusal(import_options(files.write("part.msh", without), {"corner"})),
-               Contains("part.msh") && Contains("it has no $Nodes or no $Elements"));
+               Contains("part.msh") && Contains("expected $Nodes and $Elements"));
   }
 }
 

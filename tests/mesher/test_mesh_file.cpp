@@ -98,8 +98,8 @@ TEST_CASE("a partition or an order that does not fit the mesh is refused") {
   };
   CHECK_THROWS_WITH(writing({{2, {0}}}, {}), Contains("partition 2 has 1 entries, expected 2"));
   CHECK_THROWS_WITH(writing({{2, {0, 2}}}, {}), Contains("names process 2, expected 0 to 1"));
-  CHECK_THROWS_WITH(writing({}, {0, 1}), Contains("no permutation"));
-  CHECK_THROWS_WITH(writing({}, std::vector<std::int32_t>(45, 0)), Contains("no permutation"));
+  CHECK_THROWS_WITH(writing({}, {0, 1}), Contains("not a permutation"));
+  CHECK_THROWS_WITH(writing({}, std::vector<std::int32_t>(45, 0)), Contains("not a permutation"));
 }
 
 TEST_CASE("a missing, truncated or foreign file is refused by name") {

@@ -93,12 +93,12 @@ TEST_CASE("cuts that cannot be made are refused") {
       [&] {
         pieces_by_parts(whole, {{"lower"}, {"middle"}});
       },
-      "part 'upper' belongs to no piece");
+      "part 'upper' belongs to no substructure");
   require_refusal(
       [&] {
         pieces_by_parts(whole, {{"lower", "upper"}, {"middle", "upper"}});
       },
-      "part 'upper' belongs to two pieces");
+      "part 'upper' belongs to two substructures");
   require_refusal([&] { pieces_by_parts(whole, {{"lover"}}); }, "lower");
   require_refusal([&] { pieces_by_planes(whole, up, std::vector<double>{0.3}); },
                   "passes through elements of part 'lower'");
@@ -111,7 +111,7 @@ TEST_CASE("cuts that cannot be made are refused") {
       [&] {
         pieces_by_planes(whole, up, std::vector<double>{-1.0, 0.25});
       },
-      "leave piece 1 without elements");
+      "leave substructure 1 without elements");
 }
 
 }  // namespace flexneck::mesher

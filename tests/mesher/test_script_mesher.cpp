@@ -66,9 +66,8 @@ TEST_CASE(
     for (std::size_t d = 0; d < 3; ++d) CHECK(mesh.nodes[n][d] == 0.0254 * metres.nodes[n][d]);
   }
   for (const std::string option : {"Mesh.ScalingFactor", "Geometry.ScalingFactor"}) {
-    CHECK_THROWS_WITH(
-        ScriptFixture(kBrick + (option + " = 0.001;\n")).mesh(),
-        Contains(option + " = 0.001 would have no effect") && Contains("geometry.unit"));
+    CHECK_THROWS_WITH(ScriptFixture(kBrick + (option + " = 0.001;\n")).mesh(),
+                      Contains(option + " = 0.001 has no effect") && Contains("geometry.unit"));
     CHECK_NOTHROW(ScriptFixture(kBrick + (option + " = 1;\n")).mesh());
   }
 }
@@ -124,7 +123,7 @@ TEST_CASE("node patches take the nodes near their centres and say where there ar
   CHECK_THROWS_WITH(script.mesh(), Contains("node set 'corners'") &&
                                        Contains("within 0.26 m of (1.5, 2, 3) m") &&
                                        Contains("the nearest is 0.5 m away") &&
-                                       Contains("raise the radius or the divisions"));
+                                       Contains("increase the radius or refine the mesh"));
   script.options.patches = {{.name = "x", .face_set = "skim", .centres_m = {}, .radius_m = 1}};
   CHECK_THROWS_WITH(script.mesh(), Contains("no node set 'skim'") && Contains("'skin'"));
 }
@@ -206,9 +205,11 @@ Physical Volume("brick") = {1};
   CHECK(tetrahedra.blocks[0].kind == ElementKind::tet10);
   script.options.element = ElementKind::hex20;
   CHECK_THROWS_AS(script.mesh(), InputError);
-  CHECK_THROWS_WITH(script.mesh(), Contains("its elements are tet10, asked for are hex20"));
+  CHECK_THROWS_WITH(script.mesh(),
+                    Contains("the script makes elements of kind tet10, but mesh.element is hex20"));
   script.options.element = ElementKind::prism18;
-  CHECK_THROWS_WITH(script.mesh(), Contains("hex27, hex20, hex8 or tet10, found prism18"));
+  CHECK_THROWS_WITH(script.mesh(),
+                    Contains("hex27, hex20, hex8 or tet10 for a script, found prism18"));
 }
 
 TEST_CASE("tetrahedra of first order that were not asked for are refused") {
@@ -220,7 +221,8 @@ Physical Volume("brick") = {1};
 )");
   tetrahedra.options.element = ElementKind::hex8;  // first order
   CHECK_THROWS_AS(tetrahedra.mesh(), InputError);
-  CHECK_THROWS_WITH(tetrahedra.mesh(), Contains("its elements are tet4, asked for are hex8"));
+  CHECK_THROWS_WITH(tetrahedra.mesh(),
+                    Contains("the script makes elements of kind tet4, but mesh.element is hex8"));
 }
 
 TEST_CASE("volumes outside every part, unnamed parts and scripts without parts are refused") {
@@ -246,7 +248,7 @@ g[] = Extrude {0, 1, 0} { Line{50}; Layers{1}; Recombine; };
 Physical Surface("adrift") = {g[1]};
 )")
                         .mesh(),
-                    Contains("'adrift' bounds no part"));
+                    Contains("'adrift' is on the boundary of no part"));
 }
 
 TEST_CASE("gmsh is used by one session at a time and free again afterwards") {

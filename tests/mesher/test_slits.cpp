@@ -329,7 +329,7 @@ TEST_CASE("faces that cannot be a slit are refused and leave the mesh as it was"
     return text;
   };
   CHECK_THAT(refusal(whole, {"outside"}),
-             Contains("slit 'outside'") && Contains("an element on either side"));
+             Contains("slit 'outside'") && Contains("an element on both sides"));
   CHECK_THAT(refusal(whole, {"cat"}), Contains("no face set 'cat' (did you mean 'cut'?)"));
   CHECK_THAT(refusal(whole, {"cut", "whole_plane"}), Contains("occurs twice"));
   CHECK_THAT(refusal(whole, {"cut", "rest_of_plane"}),
@@ -360,7 +360,7 @@ TEST_CASE("faces that cannot be a slit are refused and leave the mesh as it was"
   REQUIRE(one.size() == 4);
   faces.nodes = one;
   std::erase_if(inside.node_sets, [](const NodeSet& set) { return set.name == "cut"; });
-  CHECK_THAT(refusal(inside, {"cut"}), Contains("no node of its faces comes apart"));
+  CHECK_THAT(refusal(inside, {"cut"}), Contains("no node of its faces is separated"));
 }
 
 }  // namespace flexneck::mesher

@@ -175,7 +175,7 @@ TEST_CASE("steps end where a stop is met and left, and the kinks cost neither or
     CHECK(history.marker("block").velocity_m_s(0, 1) == Approx(kSpeed).epsilon(100 * tolerance));
     int events = 0;
     for (const StepLimit& limit : history.statistics.limits)
-      if (limit.what == "event: resistance 'stops': a stop or a kink of its curve")
+      if (limit.what == "event: resistance 'stops': it reaches a stop or a kink of its curve")
         events = limit.steps;
     // Events are entering and leaving each stop; a second, short step if the first ended just
     // before the event.

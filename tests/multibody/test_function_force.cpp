@@ -210,7 +210,8 @@ TEST_CASE("what a function must not do is refused") {
       simulate(mounted.build.model, {}, {.end_time_s = 0.2, .interval_s = 0.01});
       FAIL("expected the run to end");
     } catch (const IncompleteRun& run) {
-      CHECK_THAT(run.what(), Contains("function_force 'mount'") && Contains("no finite load"));
+      CHECK_THAT(run.what(),
+                 Contains("function_force 'mount'") && Contains("a load that is not finite"));
       CHECK(run.history.time_s.size() > 1);
     }
   }

@@ -177,7 +177,7 @@ TEST_CASE("a closed loop that is given in motion is not linearised") {
   CHECK(linearise(loop, LinearisedAt::given).empty());
   loop.bodies[1].initial_angular_velocity_rad_s = {0, 1, 0};
   CHECK_THROWS_WITH(linearise(loop, LinearisedAt::given),
-                    Catch::Matchers::Contains("close a loop"));
+                    Catch::Matchers::Contains("closed loops of joints"));
 }
 
 TEST_CASE("a clamped modal body alone has its own frequencies and damping") {

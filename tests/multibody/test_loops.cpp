@@ -75,7 +75,7 @@ TEST_CASE("velocities that nobody gives fit the motor that starts a loop") {
   CHECK(history.freedoms == 0);
   // A velocity that is given is not changed.
   model.bodies[2].velocities_are_open = false;
-  if (rate == 8.0) CHECK_THROWS_WITH(simulate(model, kTight, kOutput), Contains("part with"));
+  if (rate == 8.0) CHECK_THROWS_WITH(simulate(model, kTight, kOutput), Contains("separate with"));
 }
 
 TEST_CASE("generalised-alpha steps as finely as motors that drive everything ask for") {
@@ -96,8 +96,9 @@ TEST_CASE("motors that contradict each other are refused with that reason") {
   Model model = four_bar().model;
   add_motor(model, 0, 1, 0, 2);
   add_motor(model, 3, 0, 0, 2);
-  CHECK_THROWS_WITH(simulate(model, kTight, kOutput),
-                    Contains("motor 'motor of A' and motor 'motor of D' give the same freedom"));
+  CHECK_THROWS_WITH(
+      simulate(model, kTight, kOutput),
+      Contains("motor 'motor of A' and motor 'motor of D' prescribe the same degree of freedom"));
 }
 
 TEST_CASE("pins that are out of line by little are told of, and how many freedoms are left") {
@@ -108,7 +109,7 @@ TEST_CASE("pins that are out of line by little are told of, and how many freedom
   const History skewed = simulate(four_bar(GENERATE(3e-5, 1e-4, 1e-3)).model, kTight, kOutput);
   CHECK(skewed.freedoms == 0);
   REQUIRE(!skewed.warnings.empty());
-  CHECK_THAT(skewed.warnings[0], Contains("joint 'D'") && Contains("out of line"));
+  CHECK_THAT(skewed.warnings[0], Contains("joint 'D'") && Contains("misaligned"));
 }
 
 TEST_CASE("a ring of pins moves as one of balls, its rank found once") {

@@ -58,7 +58,7 @@ TEST_CASE("Look-ups by name find or name the nearest") {
 TEST_CASE("Names that are empty, doubled or hold a slash are refused") {
   CHECK_THAT(complaint([](Model& m) { m.bodies[2].name = ""; }), Contains("body 3 has no name"));
   CHECK_THAT(complaint([](Model& m) { m.markers[1].name = "base"; }),
-             Contains("marker 'base' is there twice"));
+             Contains("marker 'base' occurs twice"));
   CHECK_THAT(complaint([](Model& m) { m.joints[0].name = "a/b"; }), Contains("joint 'a/b'"));
 }
 
@@ -110,7 +110,7 @@ TEST_CASE("Deformable bodies with odd damping, frequencies or invariants are ref
   CHECK_THAT(complaint([](Model& m) { neck_of(m).modes.invariants.S2 *= 10; }),
              Contains("not positive definite"));
   CHECK_THAT(complaint([](Model& m) { neck_of(m).modes.invariants.G0.pop_back(); }),
-             Contains("invariants are not those of 4 modes"));
+             Contains("invariants do not have the sizes for 4 modes"));
   CHECK_THAT(complaint([](Model& m) { neck_of(m).modes.interfaces[1].rotation.resize(3, 2); }),
              Contains("interface 'top'"));
 }
@@ -152,5 +152,5 @@ TEST_CASE("Markers and joints must fit their bodies") {
                m.bodies[2].kind = PrescribedBody{};
                m.joints[1].marker_i = 0;
              }),
-             Contains("'base' and 'head', whose motions are both given"));
+             Contains("'base' and 'head', whose motions are both prescribed"));
 }

@@ -128,5 +128,5 @@ TEST_CASE("a joint starts where its motor says, and motors that make no sense ar
   motor.coordinate = JointCoordinate::angle;
   build.model.joints[0].motors.push_back(motor);
   build.model.joints[0].motors[1].name = "second";
-  CHECK_THROWS_WITH(check(build.model), Contains("another motor for its angle"));
+  CHECK_THROWS_WITH(check(build.model), Contains("already has a motor for its angle"));
 }

@@ -216,7 +216,7 @@ TEST_CASE(
 
 TEST_CASE("a start from equilibrium on a body that turns is refused") {
   CHECK_THROWS_WITH(simulate_from_equilibrium(on_turntable().model, {}, {}),
-                    Contains("body 'table' turns at time zero"));
+                    Contains("body 'table' rotates at time zero"));
 }
 
 TEST_CASE("a model without a free body runs: its prescribed bodies move, and nothing else") {

@@ -200,7 +200,7 @@ TEST_CASE("gaps that make no sense are refused") {
   Section section = random_section(random, 2);
   section.stiffness.row(7).setZero();
   section.stiffness.col(7).setZero();
-  refused(section, "stiffness of the gaps must be positive");
+  refused(section, "stiffness of the gaps and of the sliding motions must be positive definite");
   section = random_section(random, 2);
   section.branches[1].stiffness = random_stiffness(random, 1);
   refused(section, "stiffness of branch 2 must be of the same size");

@@ -250,7 +250,7 @@ TEST_CASE("a run that cannot go on says when and why and keeps what it has") {
     simulate(wild_sled(), solver, fine);
     FAIL("a force without bound was integrated");
   } catch (const IncompleteRun& run) {
-    CHECK_THAT(run.what(), Contains(" s;") && Contains("what limits it is the ") &&
+    CHECK_THAT(run.what(), Contains(" s;") && Contains("it is limited by the ") &&
                                (Contains("body '") || Contains("joint '")));
     CHECK(run.history.incomplete == run.what());
     REQUIRE(run.history.time_s.size() == 6);
@@ -267,7 +267,7 @@ TEST_CASE("a run that needs more steps than allowed is given up") {
   SolverOptions solver = tolerance(1e-9);
   solver.max_steps = 5;
   CHECK_THROWS_WITH(simulate(sled(), solver, kShort),
-                    Contains("after 5 steps") && Contains("what limits them"));
+                    Contains("after 5 steps") && Contains("the step size is limited"));
 }
 
 TEST_CASE("options that make no sense are refused") {

@@ -243,5 +243,5 @@ TEST_CASE("friction that makes no sense is refused") {
   section = random_section(random, 2, 1);
   section.friction.sliding_time_s = 0;
   refused(section, "sliding time");
-  refused(random_section(random, 3, 1), "friction is that of one slit");
+  refused(random_section(random, 3, 1), "friction needs a single slit");
 }

@@ -143,5 +143,5 @@ TEST_CASE("gaps that do not fit a body are refused") {
   refused(body, "not positive definite");
   body = slit_body(random, 2);
   body.stress_stiffening = true;
-  refused(body, "stress_stiffening is not offered");
+  refused(body, "stress_stiffening is not supported");
 }

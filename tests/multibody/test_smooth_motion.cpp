@@ -122,7 +122,7 @@ TEST_CASE("shorter features are found between breakpoints, or at a finer resolut
       SmoothMotion::of_acceleration(blow, 1, {.resolution_s = 1e-4, .breakpoints_s = {0.3, 0.2}}),
       Catch::Matchers::Contains("breakpoints must increase"));
   CHECK_THROWS_WITH(SmoothMotion::of_acceleration(blow, 1e5),
-                    Catch::Matchers::Contains("make solver.resolution longer"));
+                    Catch::Matchers::Contains("increase solver.resolution"));
 }
 
 TEST_CASE("a motion that is not smooth enough or not a number is refused") {
@@ -187,7 +187,7 @@ TEST_CASE("the spline through a table of displacements is exact for a cubic and 
 TEST_CASE("tables of displacements that no spline goes through are refused") {
   using Catch::Matchers::Contains;
   CHECK_THROWS_WITH(SmoothMotion::of_displacement_table({0, 1, 2}, {0, 0, 0}),
-                    Contains("four rows or more"));
+                    Contains("at least four rows"));
   CHECK_THROWS_WITH(SmoothMotion::of_displacement_table({0, 1, 1, 2}, {0, 0, 0, 0}),
                     Contains("do not increase, at 1 s"));
   CHECK_THROWS_WITH(SmoothMotion::of_displacement_table({0, 1, 2, 3}, {0, 0, std::nan(""), 0}),

@@ -240,11 +240,11 @@ TEST_CASE("what makes steady rotation periodic is refused by name") {
   };
   Rotor made = rotor(10);
   made.build.model.gravity_m_s2 = {0, 0.1, -kGravity};
-  refused(made.build.model, "gravity is not along the axis");
+  refused(made.build.model, "gravity is not parallel to the axis");
 
   made = rotor(10);
   add_bearing(made, 100, 100.001, 0);
-  refused(made.build.model, "not the same all round the axis");
+  refused(made.build.model, "not rotationally symmetric about the axis");
   // Four springs are isotropic to the first order; three of them are not. This holds for the size
   // of a watch and of a wind turbine.
   for (const double size : {2e-3, 1.0, 1e3}) {
@@ -262,18 +262,18 @@ TEST_CASE("what makes steady rotation periodic is refused by name") {
     }
     CHECK(system_modes(model).size() == 6);
     model.forces.of<MarkerSpring>().pop_back();
-    refused(model, "not the same all round the axis");
+    refused(model, "not rotationally symmetric about the axis");
   }
 
   made = rotor(10);
   made.build.joint("clamp", &kSphericalJoint, made.ground,
                    made.build.marker("rim", 2, {0.1, 0, 0}));
   made.build.model.bodies[0].initial_pose.position_m = {0.1, 0, 0};
-  refused(made.build.model, "joint 'clamp' ties a body to one that does not turn");
+  refused(made.build.model, "joint 'clamp' connects a body to one that does not rotate");
 
   made = rotor(10);
   made.build.body("other", turning(Vector3d::UnitZ(), 11));
-  refused(made.build.model, "prescribed bodies 'hub' and 'other' turn at different rates");
+  refused(made.build.model, "prescribed bodies 'hub' and 'other' rotate at different rates");
   made.build.model.bodies.back().kind = turning(-Vector3d::UnitZ(), -10);
   CHECK(system_modes(made.build.model).size() == 6);
   std::get<PrescribedBody>(made.build.model.bodies.back().kind).turn.point_m = {0.1, 0, 0};
@@ -282,17 +282,17 @@ TEST_CASE("what makes steady rotation periodic is refused by name") {
   made = rotor(10);
   std::get<PrescribedBody>(made.build.model.bodies[1].kind).turn.acceleration_rad_s2 =
       constant_table(1);
-  refused(made.build.model, "'hub' does not turn at a constant rate");
+  refused(made.build.model, "'hub' does not rotate at a constant rate");
 
   made = rotor(10);
   made.build.force("push", made.disc, Vector3d::UnitZ(),
                    TimeTable({0, 1}, {0, 1}, TimeTable::Outside::constant));
-  refused(made.build.model, "force 'push' changes with time");
+  refused(made.build.model, "force 'push' varies with time");
   made.build.model.forces.of<PointForce>()[0] = {"push", made.disc, Vector3d::UnitX(),
                                                  constant_table(1)};
-  refused(made.build.model, "force 'push' is not along the axis");
+  refused(made.build.model, "force 'push' is not parallel to the axis");
 
   CHECK_THROWS_WITH(campbell_diagram(rotor(0).build.model, {0, 1}),
-                    Contains("no prescribed body turns"));
+                    Contains("needs a prescribed body that rotates"));
   CHECK_THROWS_WITH(campbell_diagram(rotor(1).build.model, {1, 1}), Contains("ascend"));
 }

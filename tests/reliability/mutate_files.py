@@ -23,7 +23,7 @@ MEMORY = 1 << 30  # and twice the file
 SECONDS = 20  # of the processor; on the clock CLOCK times as much, for a machine with other work
 CLOCK = 30
 # Texts that report the death of a child.
-CONTAINED = re.compile(r"crashes on it|is not done with it|wants more than|gives up on it|was killed")
+CONTAINED = re.compile(r"crashed while reading it|did not finish reading it|needs more than|failed to read it|was killed")
 
 
 def limit():
@@ -107,7 +107,7 @@ def try_one(task):
             if result["fault"] or status != 0:
                 break
         result["contents"] = damaged
-        if stacks and "crashes on it" in result["text"]:
+        if stacks and "crashed while reading it" in result["text"]:
             result["stack"] = stack_of(program, sound, each, result, damaged)
     return result
 

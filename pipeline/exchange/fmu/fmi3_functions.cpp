@@ -31,13 +31,13 @@ FmuModel model_in(const std::string& resources, const std::string& token) {
       resources + (resources.empty() || resources.back() == '/' ? "" : "/") + "model.bin";
   const std::string bytes = text_of_file(path);
   if (flexneck::pipeline::token_of(bytes) != token)
-    throw InputError(path + ": expected the bytes that the token " + token +
-                     " belongs to, found others; unpack the FMU again");
+    throw InputError(path + ": expected the file that matches the instantiation token " + token +
+                     ", found another one; unpack the FMU again");
   return flexneck::pipeline::fmu_model_of(bytes);
 }
 
 FmuInstance::State& state_of(fmi3FMUState state) {
-  if (state == nullptr) throw InputError("there is no saved state");
+  if (state == nullptr) throw InputError("expected a saved state, found a null pointer");
   return *static_cast<FmuInstance::State*>(state);
 }
 
@@ -59,7 +59,9 @@ FLEXNECK_FMI fmi3Instance fmi3InstantiateCoSimulation(
     instance->may_return_early = early_return;
     if (guarded(instance.get(), [&](Instance& at) {
           if (token == nullptr || resources == nullptr)
-            throw InputError("an instance needs the token and the path of the resources");
+            throw InputError(
+                "expected the instantiation token and the path of the resources, found a null "
+                "pointer");
           at.token = token;
           at.model = model_in(resources, at.token);
           at.run = std::make_unique<FmuInstance>(at.model);
@@ -148,7 +150,7 @@ FLEXNECK_FMI fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueRef
 
 FLEXNECK_FMI fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState* state) {
   return guarded(instance, [&](Instance& at) {
-    if (state == nullptr) throw InputError("there is no place for the state");
+    if (state == nullptr) throw InputError("expected a place for the state, found a null pointer");
     FmuInstance::State found = at.run->save();
     if (*state != nullptr)
       state_of(*state) = std::move(found);
@@ -180,7 +182,7 @@ FLEXNECK_FMI fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUStat
                                               fmi3Byte bytes[], std::size_t size) {
   return guarded(instance, [&](Instance& at) {
     const std::string found = FmuInstance::bytes_of(state_of(state), at.token);
-    if (found.size() != size) throw InputError("the state has another size");
+    if (found.size() != size) throw InputError("expected the size of the state, found another one");
     std::memcpy(values_at(bytes, size).data(), found.data(), size);
   });
 }

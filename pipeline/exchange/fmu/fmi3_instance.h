@@ -64,7 +64,7 @@ fmi3Status guarded(fmi3Instance instance, const Do& action, fmi3Status not_compu
   } catch (const std::exception& error) {
     return at.tell(fmi3Error, error.what());
   } catch (...) {
-    return at.tell(fmi3Error, "failed for an unknown reason");
+    return at.tell(fmi3Error, "failed with an unknown error");
   }
 }
 

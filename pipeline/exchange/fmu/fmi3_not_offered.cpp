@@ -9,7 +9,7 @@ namespace {
 fmi3Status not_offered(fmi3Instance instance, const char* function) {
   return flexneck::pipeline::guarded(instance, [&](const flexneck::pipeline::Fmi3Instance&) {
     throw flexneck::InputError(std::string(function) +
-                               ": this FMU has nothing that it could be of");
+                               ": not supported, since this FMU has no variables of this kind");
   });
 }
 
@@ -19,7 +19,7 @@ FLEXNECK_FMI fmi3Instance fmi3InstantiateModelExchange(fmi3String, fmi3String, f
                                                        fmi3Boolean, fmi3Boolean,
                                                        fmi3InstanceEnvironment environment,
                                                        fmi3LogMessageCallback log) {
-  if (log != nullptr) log(environment, fmi3Error, "error", "this FMU is for co-simulation only");
+  if (log != nullptr) log(environment, fmi3Error, "error", "this FMU supports only co-simulation");
   return nullptr;
 }
 
@@ -27,7 +27,7 @@ FLEXNECK_FMI fmi3Instance fmi3InstantiateScheduledExecution(
     fmi3String, fmi3String, fmi3String, fmi3Boolean, fmi3Boolean,
     fmi3InstanceEnvironment environment, fmi3LogMessageCallback log, fmi3ClockUpdateCallback,
     fmi3LockPreemptionCallback, fmi3UnlockPreemptionCallback) {
-  if (log != nullptr) log(environment, fmi3Error, "error", "this FMU is for co-simulation only");
+  if (log != nullptr) log(environment, fmi3Error, "error", "this FMU supports only co-simulation");
   return nullptr;
 }
 

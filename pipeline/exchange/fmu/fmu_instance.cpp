@@ -74,8 +74,8 @@ void FmuInstance::require(Mode needed) const {
   constexpr std::array<const char*, 4> kNames = {"before initialization", "in initialization mode",
                                                  "in step mode", "terminated"};
   if (mode_ != needed)
-    throw InputError(std::string("expected an instance ") +
-                     kNames[static_cast<std::size_t>(needed)] + ", found one " +
+    throw InputError(std::string("expected an FMU instance ") +
+                     kNames[static_cast<std::size_t>(needed)] + ", found it " +
                      kNames[static_cast<std::size_t>(mode_)]);
 }
 
@@ -110,10 +110,10 @@ void FmuInstance::advance(double time_s, double length_s, const SteppedRun::Goes
   // Importers accumulate their steps with rounding errors.
   constexpr double kRounding = 1e-9;
   if (std::abs(time_s - run.time_s()) > kRounding * std::max(length_s, std::abs(time_s)))
-    throw InputError("a step from " + rounded_text(time_s) + " s, but the time is " +
-                     rounded_text(run.time_s()) + " s");
+    throw InputError("expected a step from the current time of the instance, found one from " +
+                     rounded_text(time_s) + " s at " + rounded_text(run.time_s()) + " s");
   if (!(length_s > 0 && std::isfinite(length_s)))
-    throw InputError("a step must be longer than zero, not " + rounded_text(length_s) + " s");
+    throw InputError("expected a step longer than zero, found " + rounded_text(length_s) + " s");
   outputs();  // quaternions continue from the previous step
   run.advance(time_s + length_s, goes_on);
   outputs_are_new_ = false;
@@ -122,14 +122,15 @@ void FmuInstance::advance(double time_s, double length_s, const SteppedRun::Goes
 
 void FmuInstance::set(std::span<const Reference> references, std::span<const double> values) {
   if (references.size() != values.size())
-    throw InputError("as many values are needed as value references");
+    throw InputError("expected as many values as value references");
   const bool has_begun = mode_ == Mode::step;
   if (mode_ == Mode::terminated) require(Mode::step);
   for (std::size_t k = 0; k < values.size(); ++k) {
     const FmuVariable& each = variable(references[k]);
-    if (!std::isfinite(values[k])) throw InputError(each.name + ": the value is not finite");
+    if (!std::isfinite(values[k])) throw InputError(each.name + ": expected a finite value");
     if (each.causality == Causality::parameter) {
-      if (has_begun) throw InputError(each.name + ": a parameter stays after initialization");
+      if (has_begun)
+        throw InputError(each.name + ": a parameter cannot be changed after initialization");
       *parameters_[references[k] - 1] = values[k];
       run_.reset();
     } else if (each.causality == Causality::input) {
@@ -140,7 +141,7 @@ void FmuInstance::set(std::span<const Reference> references, std::span<const dou
       else
         run_.reset();  // its start depends on its inputs
     } else {
-      throw InputError(each.name + ": it is neither a parameter nor an input");
+      throw InputError(each.name + ": cannot be set, since it is neither a parameter nor an input");
     }
     outputs_are_new_ = false;
   }
@@ -164,7 +165,7 @@ const std::vector<double>& FmuInstance::outputs() {
 
 void FmuInstance::get(std::span<const Reference> references, std::span<double> values) {
   if (references.size() != values.size())
-    throw InputError("as many values are needed as value references");
+    throw InputError("expected as many values as value references");
   for (std::size_t k = 0; k < values.size(); ++k) {
     const Reference reference = references[k];
     switch (variable(reference).causality) {
@@ -204,7 +205,7 @@ FmuInstance::State FmuInstance::save() const {
 void FmuInstance::restore(const State& state) {
   if (state.values.size() != parameters_.size() || state.inputs.size() != inputs_.size() ||
       state.last.size() != last_.size())
-    throw InputError("the state is one of another model");
+    throw InputError("the state belongs to another model");
   bool same = model_.solver.relative_tolerance == state.relative_tolerance;
   model_.solver.relative_tolerance = state.relative_tolerance;
   mode_ = state.mode;
@@ -231,7 +232,7 @@ FmuInstance::State FmuInstance::state_of(std::string_view bytes, const std::stri
   const std::string_view hash = bytes.substr(size);
   bytes = bytes.substr(0, size);
   if (hash_of_text(token + std::string(bytes)) != hash)
-    throw InputError("the saved state is damaged, or one of another model");
+    throw InputError("the saved state is damaged, or belongs to another model");
   ByteReader reader(bytes);
   State state;
   archive(reader, state);

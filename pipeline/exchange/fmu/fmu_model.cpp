@@ -47,7 +47,8 @@ void each_parameter(Model& model, const Visit& visit) {
   for (multibody::Body& body : model.bodies) {
     const std::string of = "body." + body.name;
     if (auto* const rigid = std::get_if<RigidBody>(&body.kind))
-      visit(of + ".mass", "kg", "Mass; the inertia about its centre stays", rigid->mass_kg);
+      visit(of + ".mass", "kg", "Mass; the inertia about the centre of mass is unchanged",
+            rigid->mass_kg);
     if (auto* const deformable = std::get_if<DeformableBody>(&body.kind))
       for (Eigen::Index k = 0; k < deformable->damping_ratio.size(); ++k)
         visit(of + ".damping_ratio." + deformable->modes.modes[static_cast<std::size_t>(k)].name,

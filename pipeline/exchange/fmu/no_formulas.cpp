@@ -7,7 +7,7 @@ namespace flexneck::pipeline {
 
 multibody::FunctionForce function_force_of(const FormulaForce& force) {
   throw InputError("function_force '" + force.name +
-                   "': this shared object is one for models without formulas");
+                   "': this shared library supports only models without formulas");
 }
 
 }  // namespace flexneck::pipeline

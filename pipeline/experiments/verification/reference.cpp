@@ -9,14 +9,18 @@ namespace flexneck::pipeline {
 namespace {
 
 constexpr Key kKeys[] = {
-    Key::number("tolerance_percent", kRequired, "Of the frequencies of bending and torsion"),
-    Key::quantities("bending", "Hz", kRequired, "Frequencies of bending, ascending"),
-    Key::quantities("torsion", "Hz", kRequired, "Frequencies of torsion, ascending"),
-    Key::texts("mode_order", kRequired, "Kinds of the modes, ascending"),
+    Key::number("tolerance_percent", kRequired,
+                "Tolerance of the frequencies of bending and torsion modes, in per cent"),
+    Key::quantities("bending", "Hz", kRequired, "Frequencies of the bending modes, ascending"),
+    Key::quantities("torsion", "Hz", kRequired, "Frequencies of the torsion modes, ascending"),
+    Key::texts("mode_order", kRequired, "Kinds of the modes, by ascending frequency"),
     Key::quantity("weight", "kg", kRequired, "Mass of the neck"),
-    Key::quantity("system_frequency", "Hz", kRequired, "First frequency of the neck with the head"),
-    Key::number("frequency_ratio", kRequired, "First frequency of the neck over that"),
-    Key::number("effective_damping", kRequired, "Damping ratio of that mode"),
+    Key::quantity("system_frequency", "Hz", kRequired,
+                  "First frequency of the neck with the head attached"),
+    Key::number("frequency_ratio", kRequired,
+                "Ratio of the first frequency of the neck to the system frequency"),
+    Key::number("effective_damping", kRequired,
+                "Damping ratio of the first mode of the neck with the head attached"),
 };
 
 }  // namespace

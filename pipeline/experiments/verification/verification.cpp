@@ -48,7 +48,7 @@ void add_frequencies(VerificationTable& table, const Study& study, const fe_moda
       row.value = fmt::format("{:.3f}", value);
       row.error_percent = percent_off(value, references_Hz[rank]);
     } else {
-      row.detail = "not among the modes computed; raise modes.count";
+      row.detail = "not among the computed modes; increase modes.count";
     }
     row.fitted = is_fitted_frequency(study, row);
     table.rows.push_back(std::move(row));
@@ -179,13 +179,12 @@ bool VerificationTable::passed() const {
 
 std::string why_unjudged(const Study& study, const VerificationTable& table) {
   const std::string own = own_value_of_geometry(study.parameters);
-  if (!own.empty()) return own + " is your own, not that of the published neck";
+  if (!own.empty()) return own + " is a value of your own, not that of the published neck";
   const bool is_fit = study.neck() != nullptr && !study.neck()->fitted_values.empty();
   const bool has_target = std::ranges::any_of(table.rows, [](const VerificationRow& row) {
     return row.fitted && row.status != Status::compared;
   });
-  return is_fit && !has_target ? "a fit made this neck, and it is not fitted to these frequencies"
-                               : "";
+  return is_fit && !has_target ? "this neck was fitted, but not to these frequencies" : "";
 }
 
 VerificationTable verify(const Study& study, const fe_modal::ModalBody& body,

@@ -55,7 +55,7 @@ Eigen::VectorXd read_samples(const DescriptorFile& file) {
   if (count != static_cast<double>(lines.size()))
     file.refuse(file.need("Number of samples"),
                 "expected as many samples as the header says, found " +
-                    std::to_string(lines.size()) + "; is the file whole?");
+                    std::to_string(lines.size()) + "; the file may be truncated");
   if (lines.size() < 2) file.refuse("expected at least two samples");
   Eigen::VectorXd values(static_cast<Index>(lines.size()));
   for (Index k = 0; k < values.size(); ++k)
@@ -71,8 +71,8 @@ void require_times(const DescriptorFile& file, const MmeChannel& channel) {
   const Eigen::VectorXd time_s = channel.time_s();
   const Index last = time_s.size() - 1;
   if (!time_s.allFinite() || ((time_s.tail(last) - time_s.head(last)).array() <= 0).any())
-    file.refuse(line, "expected times that increase, but " + printable(line.text) +
-                          " s is too small or too large after the time of the first sample");
+    file.refuse(line, "expected increasing times, but " + printable(line.text) +
+                          " s is too small or too large for the time of the first sample");
 }
 
 }  // namespace

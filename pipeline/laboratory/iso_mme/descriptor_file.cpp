@@ -70,7 +70,7 @@ double DescriptorFile::number(const Line& line) const {
     return value;
   const std::string what = line.key.empty() ? "a sample" : "a finite number of " + line.key;
   if (same_word(text, "NOVALUE"))
-    refuse(line, "expected " + what + ", found NOVALUE; a curve with gaps is not taken");
+    refuse(line, "expected " + what + ", found NOVALUE; curves with gaps are not supported");
   refuse(line, "expected " + (line.key.empty() ? "a finite number" : what) + ", found \"" +
                    printable(line.text) + "\"");
 }

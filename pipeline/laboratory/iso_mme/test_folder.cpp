@@ -47,16 +47,16 @@ fs::path test_in(const fs::path& folder) {
   const auto tests =
       entries(folder, [](const fs::path& path) { return ending_of(path) == ".mme"; });
   if (tests.size() == 1) return tests.front();
-  throw InputError(folder.string() + ": expected a folder with one test of ISO-MME, a file .mme, " +
-                   (tests.empty()
-                        ? "found none"
-                        : "found " + std::to_string(tests.size()) + "; name one of them"));
+  throw InputError(
+      folder.string() + ": expected a folder with one ISO-MME test, that is, one .mme file, " +
+      (tests.empty() ? "found none"
+                     : "found " + std::to_string(tests.size()) + "; name one of them"));
 }
 
 fs::path index_of(const fs::path& test) {
   const DescriptorFile descriptors(test);
   if (descriptors.descriptors().empty() || !descriptors.samples().empty())
-    throw InputError(test.string() + ": expected lines \"Key :value\" of a test of ISO-MME");
+    throw InputError(test.string() + ": expected an ISO-MME test with lines \"Key :value\"");
   const fs::path folder = test.has_parent_path() ? test.parent_path() : fs::path(".");
   std::vector<fs::path> places = entries(folder, [](const fs::path& path) {
     std::error_code ignored;
@@ -69,8 +69,8 @@ fs::path index_of(const fs::path& test) {
         place, [&](const fs::path& path) { return lower(path.filename().string()) == name; });
     if (!found.empty()) return found.front();
   }
-  throw InputError(test.string() + ": expected the index of its channels, Channel/" +
-                   test.stem().string() + ".chn, found none");
+  throw InputError(test.string() + ": expected the channel index Channel/" + test.stem().string() +
+                   ".chn, found none");
 }
 
 struct IndexRow {
@@ -96,7 +96,7 @@ std::vector<IndexRow> rows_of(const fs::path& path) {
   const auto* const count = index.find("Number of channels");
   if (count != nullptr && index.number(*count) != static_cast<double>(rows.size()))
     index.refuse(*count, "expected as many channels as the index says, found " +
-                             std::to_string(rows.size()) + "; is the file whole?");
+                             std::to_string(rows.size()) + "; the file may be truncated");
   if (rows.empty()) index.refuse("expected lines \"Name of channel 001 :CODE / name\", found none");
   return rows;
 }
@@ -114,7 +114,8 @@ const IndexRow& row_of(const std::vector<IndexRow>& rows, const fs::path& test,
     throw InputError(test.string() + ": there are several channels; choose one of " + listed);
   if (std::count(codes.begin(), codes.end(), code) > 1)
     throw InputError(test.string() + ": there are several channels '" + code +
-                     "'; name the file of one, such as Channel/" + test.stem().string() + ".001");
+                     "'; name the file of one of them, such as Channel/" + test.stem().string() +
+                     ".001");
   try {
     return rows[find_name(codes, code, "channel")];
   } catch (const InputError& error) {

@@ -56,9 +56,8 @@ void require_own(const fs::path& folder, const std::string& name) {
   if (other.empty() && fs::is_directory(folder / "Channel"))
     other = foreign(folder / "Channel", {});
   if (other.empty()) return;
-  throw InputError(folder.string() + ": expected a folder that is not there, or one of the test " +
-                   name + " alone, found " + other.filename().string() +
-                   " in it; choose another name");
+  throw InputError(folder.string() + ": expected a new folder, or one with only the test " + name +
+                   ", found " + other.filename().string() + " in it; choose another name");
 }
 
 }  // namespace
@@ -68,7 +67,7 @@ void write_mme_test(const fs::path& path, const MmeTest& test) {
   const fs::path folder = path.parent_path();
   if (folder.filename() != name)
     throw InputError(path.string() + ": expected " + (folder / name / (name + ".mme")).string() +
-                     ": a test of ISO-MME is a folder of its own, of the same name");
+                     "; an ISO-MME test is written to a folder of the same name");
   if (test.channels.empty() || test.channels.size() > kMaxChannels)
     throw InputError(fmt::format("{}: expected 1 to {} channels, found {}", path.string(),
                                  kMaxChannels, test.channels.size()));

@@ -22,11 +22,11 @@ constexpr double kNoVariation = 1e-12;
 
 void check_varies(const VectorXd& curve, const std::string& name) {
   if (!curve.allFinite())
-    throw InputError("the " + name + " curve has a value that is not finite; take it out");
+    throw InputError("the " + name + " curve has a value that is not finite; remove it");
   const double spread = curve.maxCoeff() - curve.minCoeff();
   if (!(spread > 0))
     throw InputError("the " + name + " curve is constant (" + rounded_text(curve[0]) +
-                     "), so that nothing correlates with it; expected one that varies");
+                     "), so that no correlation is defined; expected a varying curve");
 }
 
 /// Sums over the first k samples, k = 0 … n, of a curve and of its squares.
@@ -87,8 +87,8 @@ void check_rated(const VectorXd& reference, const VectorXd& computed) {
     throw InputError("expected curves of equal length, found " + std::to_string(reference.size()) +
                      " and " + std::to_string(computed.size()) + " samples");
   const auto must_have = [&](const char* bound, Index count) {
-    throw InputError("a rating takes " + std::string(bound) + " " + std::to_string(count) +
-                     " samples, found " + std::to_string(reference.size()) +
+    throw InputError("expected " + std::string(bound) + " " + std::to_string(count) +
+                     " samples for a rating, found " + std::to_string(reference.size()) +
                      "; choose another interval");
   };
   if (reference.size() < kMinRatedSamples) must_have("at least", kMinRatedSamples);

@@ -24,10 +24,10 @@ double last_time(const Curve& curve) { return curve.time_s[curve.time_s.size() -
 
 void check_covers(const Curve& curve, double from_s, double to_s) {
   if (first_time(curve) <= from_s + kSameTime && to_s <= last_time(curve) + kSameTime) return;
-  throw InputError(fmt::format(
-      "{}: covers {:.6g} to {:.6g} s, but {:.6g} to {:.6g} s are to be rated; choose another "
-      "interval",
-      curve.label(), first_time(curve), last_time(curve), from_s, to_s));
+  throw InputError(
+      fmt::format("{}: covers {:.6g} to {:.6g} s, but {:.6g} to {:.6g} s are requested; choose "
+                  "another interval",
+                  curve.label(), first_time(curve), last_time(curve), from_s, to_s));
 }
 
 void check_sampling(const Curve& curve, double from_s, double to_s) {
@@ -36,10 +36,10 @@ void check_sampling(const Curve& curve, double from_s, double to_s) {
     const double interval = curve.time_s[k] - begin;
     if (curve.time_s[k] <= from_s || begin >= to_s || interval <= kMaxCurveInterval_s * (1 + 1e-6))
       continue;
-    throw InputError(fmt::format(
-        "{}: a rating takes samples at most {:g} s apart, found {:.6g} s after the time {:.6g} s; "
-        "record at shorter intervals",
-        curve.label(), kMaxCurveInterval_s, interval, begin));
+    throw InputError(
+        fmt::format("{}: expected samples at most {:g} s apart, found {:.6g} s after the time "
+                    "{:.6g} s; record at shorter intervals",
+                    curve.label(), kMaxCurveInterval_s, interval, begin));
   }
 }
 
@@ -84,10 +84,10 @@ ResampledPair resampled(const Curve& reference, const Curve& computed, const Ask
   const double steps = std::floor((to_s - from_s) / kIso18571Interval_s + 1e-6);
   if (steps + 1 < static_cast<double>(kMinRatedSamples) ||
       steps + 1 > static_cast<double>(kMaxRatedSamples))
-    throw InputError(fmt::format(
-        "{}: {:.6g} to {:.6g} s are {:.0f} samples at 10 kHz; a rating takes {} to {}, choose "
-        "another interval",
-        computed.label(), from_s, to_s, steps + 1, kMinRatedSamples, kMaxRatedSamples));
+    throw InputError(
+        fmt::format("{}: {:.6g} to {:.6g} s are {:.0f} samples at 10 kHz; expected {} to {}, "
+                    "choose another interval",
+                    computed.label(), from_s, to_s, steps + 1, kMinRatedSamples, kMaxRatedSamples));
   const auto count = static_cast<Index>(steps) + 1;
   ResampledPair pair{VectorXd(count), VectorXd(count), from_s, kIso18571Interval_s};
   Interpolation of_reference(reference);

@@ -136,8 +136,9 @@ void check_sections(const toml::table& content) {
     if (is_known) continue;
     std::string expected = "expected tables";
     for (const Section& section : sections()) expected += " [[" + std::string(section.name) + "]]";
-    refuse_at(node, name,
-              expected + ", [[assembly]] or [variables] in the file of an assembly, found another");
+    refuse_at(
+        node, name,
+        expected + ", [[assembly]] or [variables] in the file of an assembly, found another key");
   }
 }
 
@@ -177,14 +178,18 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr Key kVariablesKeys[] = {
-    Key::number_or_quantity("*", "", kRequired,
-                            "A number, or a number with its unit, that values name as \"$name\""),
+    Key::number_or_quantity(
+        "*", "", kRequired,
+        "A number, or a number with its unit, that values refer to as \"$name\""),
 };
 
 constexpr Key kAssemblyKeys[] = {
-    Key::text("name", kRequired, "Name of the assembly; its tables are called name:their_name"),
-    Key::file("file", kRequired, "Model file whose bodies, joints, forces and channels join"),
-    Key::table("variables", "Values in place of those of that file's [variables]", kVariablesKeys),
+    Key::text("name", kRequired,
+              "Name of the assembly; its tables are referred to as name:table_name"),
+    Key::file("file", kRequired,
+              "Model file whose bodies, joints, forces and channels are added to this model"),
+    Key::table("variables", "Values that replace those of [variables] in that file",
+               kVariablesKeys),
 };
 
 /// Removes and returns the settings whose keys begin with `beginning`.
@@ -211,7 +216,7 @@ class Reading {
     variables.substitute(root);
     expand(root, "", variables);
     for (const std::string& setting : taken(settings_, "assembly."))
-      throw InputError("--set " + setting + ": there is no assembly of that name");
+      throw InputError("--set " + setting + ": there is no [[assembly]] with this name");
     for (const std::string& setting : settings_) apply_setting(root, setting);
     variables.substitute(root);  // which settings may use, too
     record(variables);
@@ -296,7 +301,7 @@ class Reading {
       refuse_at(table, key + ".name",
                 "expected a name without '.', ':' and '/', found '" + name + "'");
     if (std::count(names.begin(), names.end(), name) > 1)
-      refuse_at(table, key + ".name", "expected a name of its own, found that of another assembly");
+      refuse_at(table, key + ".name", "expected a unique name, found that of another assembly");
   }
 
   static void check_keys(const toml::table& assembly, const std::string& key) {
@@ -326,14 +331,14 @@ class Reading {
     std::error_code error;
     const fs::path canonical = fs::weakly_canonical(path, error);
     if (!error && std::find(open_.begin(), open_.end(), canonical) != open_.end())
-      refuse_at(assembly, place, "expected another file, found one that holds this assembly");
+      refuse_at(assembly, place, "expected another file, found one that contains this assembly");
     if (!fs::exists(path, error))
       refuse_at(*text_node(assembly, "file"), place,
-                "expected a file, found none of the name " + path.string());
+                "expected a file, but there is none with the name " + path.string());
     if (open_.size() >= kDeepestInclude || count_ >= kMaxFiles)
       refuse_at(assembly, place,
-                "expected at most " + std::to_string(kMaxFiles) + " files, and " +
-                    std::to_string(kDeepestInclude) + " within one another, found more");
+                "expected at most " + std::to_string(kMaxFiles) + " files, nested at most " +
+                    std::to_string(kDeepestInclude) + " deep, found more");
   }
 
   static void override_variables(toml::table& given, toml::table&& over, const std::string& key,
@@ -343,7 +348,7 @@ class Reading {
       const std::string name(each.str());
       if (!given.contains(name))
         refuse_at(node, key + "." + name,
-                  "expected a variable of " + path.string() + ", found another" +
+                  "expected a variable of " + path.string() + ", found an unknown name" +
                       did_you_mean(names, name));
       node.visit([&](auto& value) { given.insert_or_assign(name, std::move(value)); });
     }
@@ -359,11 +364,12 @@ class Reading {
 }  // namespace
 
 Key variables_key() {
-  return Key::table("variables", "Values that others are made of", kVariablesKeys);
+  return Key::table("variables", "Named values from which other values are computed",
+                    kVariablesKeys);
 }
 
 Key assembly_key() {
-  return Key::tables("assembly", "Models that join this one, under names of their own",
+  return Key::tables("assembly", "Models that are included in this one, with their names prefixed",
                      kAssemblyKeys);
 }
 

@@ -78,7 +78,7 @@ class Factors {
 
   [[noreturn]] void refuse() const {
     throw InputError(
-        "expected a product of numbers and variables with a unit at most, such as \"-2*$length\" "
+        "expected a product of numbers and variables with at most one unit, such as \"-2*$length\" "
         "or \"$side*3.15 in\", found \"" +
         printable(text_) + "\"");
   }

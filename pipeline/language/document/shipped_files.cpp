@@ -30,7 +30,7 @@ fs::path found(const fs::path& name) {
     if (at == at.root_path()) break;
   }
   throw ComputationError(program.string() + ": there is no " + name.string() +
-                         " beside or above it; install flexneck again");
+                         " beside or above it; reinstall flexneck");
 }
 
 const std::map<std::string, fs::path>& named_files() {
@@ -81,8 +81,8 @@ fs::path named_file(const fs::path& name, const fs::path& folder) {
   // A folder or an unreadable file: the reader reports the problem.
   std::error_code none;
   if (fs::status(here, none).type() != fs::file_type::not_found) return here;
-  throw InputError(here.string() + ": no such file, and no shipped study or model '" + stem + "'" +
-                   did_you_mean(shipped_names(), stem));
+  throw InputError(here.string() + ": no such file, and there is no shipped study or model '" +
+                   stem + "'" + did_you_mean(shipped_names(), stem));
 }
 
 }  // namespace flexneck::pipeline

@@ -73,7 +73,7 @@ std::string StudyTable::Node::misspelt(const std::string& key) const {
       if (std::find(known.begin(), known.end(), name.str()) == known.end())
         others.emplace_back(name.str());
   const std::string near = nearest_name(others, key);
-  return near.empty() ? near : "; is '" + near + "' meant to be it?";
+  return near.empty() ? near : "; is '" + near + "' a misspelling of it?";
 }
 
 namespace {
@@ -113,7 +113,7 @@ std::string StudyTable::Node::unknown(const std::string& key) const {
   const std::vector<std::string> places =
       tables_with_key(records->format, key, is_table_of_keys(node));
   if (!places.empty() && places.size() <= kMost)
-    return text + "; it belongs into " + alternatives(places);
+    return text + "; it belongs in " + alternatives(places);
   std::vector<std::string> files;
   for (const Key& other : keys)
     if (other.type == KeyType::file)
@@ -165,7 +165,7 @@ void StudyTable::Node::record(const std::string& key, const toml::node& value,
   if (labels != nullptr) {
     parameter.origin = origin_of(*labels, parameter.key);
     if (const toml::node* const note = labels->get("note")) {
-      if (!note->is_string()) refuse(key, "expected a note that is a text in quotes");
+      if (!note->is_string()) refuse(key, "expected a note as a text in quotes");
       parameter.note = note->value_or(std::string());
     }
   }

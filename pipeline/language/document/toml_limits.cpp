@@ -72,7 +72,7 @@ void check_nesting(const std::string& text, const std::string& place) {
         1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(k), '\n');
     throw InputError(place + ":" + std::to_string(line) + ": expected at most " +
                      std::to_string(kMaxNested) +
-                     " brackets within one another and parts of a dotted key, found more");
+                     " nested brackets or parts of a dotted key, found more");
   }
 }
 

@@ -102,7 +102,7 @@ toml::table parse(const fs::path& path, const std::string& text) {
   } catch (const toml::parse_error& error) {
     throw InputError(path.string() + ":" + std::to_string(error.source().begin.line) + ":" +
                      std::to_string(error.source().begin.column) +
-                     ": this is not TOML: " + std::string(error.description()));
+                     ": invalid TOML: " + std::string(error.description()));
   }
 }
 
@@ -147,8 +147,8 @@ class Reading {
     }
     if (open_.size() == kDeepestInclude || ++count_ > kMaxFiles) {
       throw InputError(path.string() + ": expected at most " + std::to_string(kMaxFiles) +
-                       " files included, and " + std::to_string(kDeepestInclude) +
-                       " within one another; remove some of the include lines");
+                       " included files, nested at most " + std::to_string(kDeepestInclude) +
+                       " deep, found more; remove some of the include lines");
     }
     open_.push_back(canonical);
   }
@@ -199,8 +199,8 @@ void apply_setting(toml::table& root, const std::string& setting) {
     throw InputError("--set " + setting + ": expected key=value");
   }
   if (find_unprintable(setting) != std::string::npos || path.size() > kMaxNested) {
-    throw InputError("--set " + setting + ": expected a key of at most " +
-                     std::to_string(kMaxNested) + " parts and no control characters");
+    throw InputError("--set " + setting + ": expected a key with at most " +
+                     std::to_string(kMaxNested) + " parts and without control characters");
   }
   check_nesting(setting.substr(equals + 1), "--set " + setting);
   toml::table* table = &root;

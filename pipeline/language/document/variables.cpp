@@ -27,8 +27,9 @@ Label label_of(const toml::table& labels, const std::string& key) {
     const auto* const found =
         std::find(kOriginNames.begin(), kOriginNames.end(), origin->value_or(std::string()));
     if (found == kOriginNames.end())
-      refuse_at(*origin, key,
-                "expected the origin published, inferred, calibrated or synthetic, found another");
+      refuse_at(
+          *origin, key,
+          "expected the origin published, inferred, calibrated or synthetic, found another text");
     label.origin = static_cast<Origin>(found - kOriginNames.begin());
   }
   label.note = labels["note"].value_or(std::string());
@@ -63,7 +64,8 @@ Variables::Variables(toml::table&& table, std::string path)
     if (!is_variable_name(name))
       refuse_at(node, path_ + "." + name, "expected a name of letters, digits and '_'");
     if (name == "value" || name == "origin" || name == "note")
-      refuse_at(node, path_ + "." + name, "expected another name: this one labels values");
+      refuse_at(node, path_ + "." + name,
+                "expected a name other than value, origin and note, which are reserved");
     variables_[name] = {};
   }
   for (const auto& [name, ignored] : variables_) value_of(name);
@@ -78,12 +80,13 @@ const VariableValue& Variables::value_of(const std::string& name) {
   if (is_cycle) {
     std::string chain;
     for (const std::string& each : open_) chain += (chain.empty() ? "" : " -> ") + each;
-    refuse_at(node, path_ + "." + name, "expected a value, found itself: " + chain);
+    refuse_at(node, path_ + "." + name,
+              "expected a value, found one that depends on itself: " + chain);
   }
   if (open_.size() > kMaxNested)
     refuse_at(node, path_ + "." + name,
               "expected at most " + std::to_string(kMaxNested) +
-                  " variables that are made of one another, found more");
+                  " variables that depend on one another, found more");
   variable.value = definition(name);
   open_.pop_back();
   return *variable.value;
@@ -141,7 +144,7 @@ VariableValue Variables::product_value(const ProductText& product, const toml::n
     value.unit += factor.unit;
     value.label = weaker(value.label, factor.label);
   }
-  if (!std::isfinite(value.number)) refuse_at(at, key, "expected a product that is finite");
+  if (!std::isfinite(value.number)) refuse_at(at, key, "expected a finite product");
   return value;
 }
 
@@ -149,7 +152,7 @@ void Variables::finish() const {
   for (const auto& [name, variable] : variables_)
     if (!variable.is_used)
       refuse_at(*table_.get(name), path_ + "." + name,
-                "expected a value that is made of \"$" + name + "\", found none; remove it");
+                "expected a value that uses \"$" + name + "\", found none; remove the variable");
 }
 
 std::vector<Parameter> Variables::parameters() const {

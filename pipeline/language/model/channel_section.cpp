@@ -29,18 +29,17 @@ std::vector<std::string> quantities() {
 
 constexpr Key kKeys[] = {
     Key::text("name", kRequired, "Name of the channel"),
-    Key::text("quantity", kRequired, "What is measured", {.choices = quantities}),
-    Key::text("marker", kNone, "Of a motion: the marker that moves"),
-    Key::text("joint", kNone, "Of a load: the joint that carries it"),
-    Key::text("body", kNone, "Of modal coordinates: the deformable body"),
-    Key::text(
-        "relative_to", kNone,
-        "Marker from whose moving frame the motion is seen; the world if the key is not there"),
-    Key::text(
-        "axes", kNone,
-        "Marker along whose axes the components are; those of relative_to if the key is not there"),
-    Key::numbers("axis", kNone, "Of an angle: its axis", {.size = 3}),
-    Key::text("filter", kNone, "Filter of SAE J211", {.choices = channel_class_names}),
+    Key::text("quantity", kRequired, "Quantity that is recorded", {.choices = quantities}),
+    Key::text("marker", kNone, "Marker whose motion is recorded"),
+    Key::text("joint", kNone, "Joint whose load is recorded"),
+    Key::text("body", kNone, "Deformable body whose modal coordinates are recorded"),
+    Key::text("relative_to", kNone,
+              "Marker relative to whose moving frame the motion is measured (default: the world)"),
+    Key::text("axes", kNone,
+              "Marker in whose axes the components are resolved (default: those of relative_to)"),
+    Key::numbers("axis", kNone, "Axis of the angle", {.size = 3}),
+    Key::text("filter", kNone, "Channel frequency class of the SAE J211 filter",
+              {.choices = channel_class_names}),
 };
 
 std::optional<std::size_t> marker_or_none(const StudyTable& table, const std::string& key,

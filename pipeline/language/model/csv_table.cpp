@@ -34,8 +34,8 @@ Header header_of(const CsvLines& file, const std::string& cell, const std::strin
 TableColumns read_mme_columns(const std::filesystem::path& path, const std::string& x_unit,
                               const std::string& y_unit, const std::string& code) {
   if (x_unit != "s")
-    throw InputError(path.string() + ": expected a CSV file with a column in '" + x_unit +
-                     "' first; channels of ISO-MME are over time");
+    throw InputError(path.string() + ": expected a CSV file whose first column is in '" + x_unit +
+                     "', found an ISO-MME test, whose channels are over time");
   const Curve curve = in_unit(read_curve(path, code), y_unit);
   return {{curve.time_s.begin(), curve.time_s.end()}, {curve.values.begin(), curve.values.end()}};
 }
@@ -47,9 +47,10 @@ TableColumns read_csv_columns(const std::filesystem::path& path, const std::stri
   if (names_mme_test(path)) return read_mme_columns(path, x_unit, y_unit, column);
   CsvLines file(path);
   std::vector<std::string> cells;
-  if (!file.next(cells)) file.refuse("expected a line with the columns' names and units");
+  if (!file.next(cells))
+    file.refuse("expected a header line with the names and units of the columns");
   if (cells.size() < 2)
-    file.refuse(std::string("expected at least two columns with their units") + CsvLines::kMarks);
+    file.refuse(std::string("expected at least two columns with units") + CsvLines::kMarks);
   const std::size_t y_index = csv_column(file, cells, column, "with the key 'column'");
   const Header x = header_of(file, cells[0], x_unit);
   const Header y = header_of(file, cells[y_index], y_unit);
@@ -58,11 +59,11 @@ TableColumns read_csv_columns(const std::filesystem::path& path, const std::stri
     const double value = file.number(cells[0], x.to_si);
     if (!table.x.empty() && !(value > table.x.back()))
       file.refuse("the column '" + x.name + "' must increase strictly, but " + cells[0] +
-                  " follows a value that is not smaller");
+                  " does not exceed the value before it");
     table.x.push_back(value);
     table.y.push_back(file.number(cells[y_index], y.to_si));
   }
-  if (table.x.empty()) file.refuse("expected rows of numbers below the columns' names");
+  if (table.x.empty()) file.refuse("expected rows of numbers below the header line, found none");
   return table;
 }
 

@@ -18,10 +18,10 @@ struct TableColumns {
 /// Keys of a table that may read two of its lists from a file.
 inline constexpr std::array<Key, 2> kCsvKeys = {{
     Key::file("table", kNone,
-              "In place of the lists: a CSV file, its first line with names and units; over time "
-              "also a test of ISO-MME"),
+              "Instead of the lists: a CSV file with names and units in its first line; for curves "
+              "over time also an ISO-MME test"),
     Key::text("column", kNone,
-              "Column of that file, where it has more than two; code of the test's channel"),
+              "Column of that file, if it has more than two; channel code of an ISO-MME test"),
 }};
 
 /// Reads two columns of a CSV file, or, if x is a time, a channel of a test in ISO-MME

@@ -33,7 +33,9 @@ class Grammar {
       if (c == '(') open_.push_back({follows_name()});
       if (c == ')' && open_.size() > 1) open_.pop_back();
       if (c == ',' && !open_.back().holds_arguments)
-        refuse("a comma parts the arguments of a function and nothing else; decimals have a point");
+        refuse(
+            "a comma is allowed only between the arguments of a function; use a point for "
+            "decimals");
       if (c == ',' || c == '?' || c == ':' || c == '&' || c == '|') open_.back().compares = false;
       if (c == '=' || c == '<' || c == '>' || c == '!') compare();
     }
@@ -54,15 +56,15 @@ class Grammar {
   void compare() {
     const bool has_equals = text_.substr(place_ + 1).starts_with('=');
     if (text_[place_] == '=' && !has_equals)
-      refuse("nothing can be assigned; to compare, write ==");
+      refuse("an assignment is not allowed; use == for a comparison");
     if (has_equals) ++place_;
     if (open_.back().compares)
-      refuse("a second comparison would be with the truth of the first; write (a < t) && (t < b)");
+      refuse("chained comparisons are not supported; write (a < t) && (t < b)");
     open_.back().compares = true;
   }
 
   [[noreturn]] void refuse(const std::string& reason) const {
-    throw InputError("\"" + printable(text_) + "\" cannot be read: at character " +
+    throw InputError("\"" + printable(text_) + "\" is not a valid expression: at character " +
                      std::to_string(place_ + 1) + ": " + reason);
   }
 
@@ -85,7 +87,8 @@ Expression::Expression(const std::string& text, const std::vector<std::string>& 
     impl_->parser.SetExpr(text);
     impl_->parser.Eval();
   } catch (const mu::Parser::exception_type& error) {
-    throw InputError("\"" + printable(text) + "\" cannot be read: " + printable(error.GetMsg()));
+    throw InputError("\"" + printable(text) +
+                     "\" is not a valid expression: " + printable(error.GetMsg()));
   }
 }
 

@@ -16,8 +16,9 @@ std::vector<FormulaForce> formula_forces_of(const multibody::Model& model) {
   for (const multibody::FunctionForce& each : model.forces.of<multibody::FunctionForce>()) {
     const auto* const load = each.load.target<StateExpression>();
     if (load == nullptr)
-      throw InputError(title(each) +
-                       ": its load is a function of a program, which has no formula to go by");
+      throw InputError(
+          title(each) +
+          ": its load is a function of a program, which cannot be written as a formula");
     forces.push_back({each.name, each.marker_i, each.marker_j, load->texts(), each.breakpoints_s});
   }
   return forces;

@@ -20,31 +20,29 @@ std::vector<std::string> kinds() { return {"ground", "prescribed", "rigid", "def
 constexpr auto kOwnKeys = joined(
     std::to_array<Key>({
         Key::text("name", kRequired, "Name of the body"),
-        Key::text("kind", kRequired, "What the body is", {.choices = kinds}),
-        Key::quantities(
-            "position", "m", kNone,
-            "Where its frame is at the start, in the world; the joints place it if neither "
-            "this nor rotation is there",
-            {.size = 3}),
+        Key::text("kind", kRequired, "Kind of body", {.choices = kinds}),
+        Key::quantities("position", "m", kNone,
+                        "Initial position of the body frame, in the world; if neither position nor "
+                        "rotation is given, the joints determine both",
+                        {.size = 3}),
         Key::quantities("rotation", "rad", kNone,
-                        "How its frame is turned at the start: a rotation vector", {.size = 3}),
-        Key::quantities(
-            "velocity", "m/s", kNone,
-            "Velocity of its origin at the start, in the world; that of what it hangs on if "
-            "neither this nor angular_velocity is there, or the nearest that loops and motors "
-            "allow",
-            {.size = 3}),
+                        "Initial rotation of the body frame, as a rotation vector", {.size = 3}),
+        Key::quantities("velocity", "m/s", kNone,
+                        "Initial velocity of the body's origin, in the world; if neither velocity "
+                        "nor angular_velocity is given, the body moves with the body that carries "
+                        "it, or as nearly so as loops and motors allow",
+                        {.size = 3}),
         Key::quantities("angular_velocity", "rad/s", kNone,
-                        "Angular velocity at the start, in its own axes", {.size = 3}),
+                        "Initial angular velocity, in the body's axes", {.size = 3}),
         Key::quantities("inertia_rotation", "rad", kNone,
-                        "Of a rigid body: how the axes of its inertia are turned against its frame",
+                        "Rotation of the axes of inertia of a rigid body relative to its frame",
                         {.size = 3}),
         Key::flag("lumped", "false",
-                  "Of a rigid body in place of mass, center and inertia: its mass is that of the "
-                  "pieces whose sections are at it, each lumped at its two ends"),
-        Key::file("modes_file", kNone,
-                  "Of a deformable body: its file of modes; in a study the modes of its structure "
-                  "if the key is not there"),
+                  "Instead of mass, center and inertia of a rigid body: the mass of the "
+                  "substructures whose sections are attached to it, each lumped at its two ends"),
+        Key::file(
+            "modes_file", kNone,
+            "Modes file of a deformable body (default in a study: the modes of its structure)"),
         kMadeByKey,
     }),
     kRigidBodyKeys);
@@ -61,7 +59,7 @@ void check_alone(const StudyTable& table, const RigidBody& body) {
 RigidBody rigid_body(const StudyTable& table, Assembly& assembly) {
   if (table.flag("lumped")) {
     table.refuse_given({"mass", "center", "inertia", "inertia_rotation"},
-                       "the body's mass is that of the sections at it");
+                       "the body takes its mass from the sections attached to it");
     assembly.lumped.insert(assembly.model.bodies.size());
     return {0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()};
   }
@@ -116,12 +114,13 @@ void read_start(const StudyTable& table, bool is_free, Assembly& assembly) {
 
 constexpr Key kMarkerKeys[] = {
     Key::text("body", kRequired, "Body that carries the marker"),
-    Key::text("name", kRequired, "Name of the marker; others call it body.name"),
-    Key::quantities("position", "m", kNone, "Place in the body's frame", {.size = 3}),
+    Key::text("name", kRequired, "Name of the marker, which is referred to as body.name"),
+    Key::quantities("position", "m", kNone, "Position in the body's frame", {.size = 3}),
     Key::text("interface", kNone,
-              "Of a deformable body, in place of position: the interface that it moves with"),
+              "Instead of position: interface of a deformable body with which the marker moves"),
     Key::quantities("rotation", "rad", kNone,
-                    "How its axes are turned against the body's: a rotation vector", {.size = 3}),
+                    "Rotation of the marker's axes relative to the body's, as a rotation vector",
+                    {.size = 3}),
 };
 
 void read_body(const StudyTable& table, Assembly& assembly) {
@@ -185,10 +184,11 @@ ModelSection body_section() {
 }
 
 ModelSection marker_section() {
-  return {
-      Key::tables("marker", "Points and axes of bodies; interfaces of deformable ones are markers",
-                  kMarkerKeys),
-      read_marker};
+  return {Key::tables("marker",
+                      "Markers: points with axes on bodies; the interfaces of deformable bodies "
+                      "are markers too",
+                      kMarkerKeys),
+          read_marker};
 }
 
 }  // namespace flexneck::pipeline

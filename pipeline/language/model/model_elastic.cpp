@@ -18,67 +18,82 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 constexpr auto kBushingKeys = std::to_array<Key>({
     Key::text("name", kRequired, "Name of the bushing"),
-    Key::text("lower", kRequired, "Marker in whose axes the matrices are"),
-    Key::text("upper", kRequired, "The other marker"),
-    Key::quantities("translation_stiffness", "N/m", kNone,
-                    "Forces over translations: three on the diagonal, or nine row by row"),
-    Key::quantities("rotation_stiffness", "N*m/rad", kNone, "Moments over rotations, likewise"),
-    Key::quantities("coupling_stiffness", "N/rad", kNone, "Forces over rotations, likewise"),
-    Key::quantities("translation_damping", "N*s/m", kNone, "Forces over velocities"),
-    Key::quantities("rotation_damping", "N*m*s/rad", kNone, "Moments over angular velocities"),
-    Key::quantities("coupling_damping", "N*s/rad", kNone, "Forces over angular velocities"),
+    Key::text("lower", kRequired, "First marker, in whose axes the matrices are given"),
+    Key::text("upper", kRequired, "Second marker"),
+    Key::quantities(
+        "translation_stiffness", "N/m", kNone,
+        "Stiffness, forces per translation: three diagonal entries, or nine row by row"),
+    Key::quantities("rotation_stiffness", "N*m/rad", kNone,
+                    "Stiffness, moments per rotation: three diagonal entries, or nine row by row"),
+    Key::quantities("coupling_stiffness", "N/rad", kNone,
+                    "Stiffness, forces per rotation: three diagonal entries, or nine row by row"),
+    Key::quantities("translation_damping", "N*s/m", kNone,
+                    "Damping, forces per velocity: three diagonal entries, or nine row by row"),
+    Key::quantities(
+        "rotation_damping", "N*m*s/rad", kNone,
+        "Damping, moments per angular velocity: three diagonal entries, or nine row by row"),
+    Key::quantities(
+        "coupling_damping", "N*s/rad", kNone,
+        "Damping, forces per angular velocity: three diagonal entries, or nine row by row"),
 });
 
 constexpr auto kSectionKeys = joined(
     std::to_array<Key>({
         Key::text("name", kRequired, "Name of the section"),
-        Key::text("lower", kRequired, "Marker at its base, in whose axes length and stiffness are"),
-        Key::text("upper", kRequired, "Marker at its top, turned like the lower one without load"),
-        Key::quantities("length", "m", kNone, "From the lower marker to the upper one without load",
+        Key::text("lower", kRequired,
+                  "Marker at the base, in whose axes length and stiffness are given"),
+        Key::text("upper", kRequired,
+                  "Marker at the top, with the orientation of the lower one in the unloaded state"),
+        Key::quantities("length", "m", kNone,
+                        "Vector from the lower to the upper marker in the unloaded state",
                         {.size = 3}),
         Key::quantities("translation_stiffness", "N/m", kNone,
-                        "Forces at the top over its translations, the base held: three on the "
-                        "diagonal, or nine row by row"),
-        Key::quantities("rotation_stiffness", "N*m/rad", kNone, "Moments over rotations, likewise"),
-        Key::quantities("coupling_stiffness", "N/rad", kNone, "Forces over rotations, likewise"),
+                        "Forces at the top per translation of the top, with the base fixed: three "
+                        "diagonal entries, or nine row by row"),
         Key::quantities(
-            "gap_stiffness", "N/m", kNone,
-            "Of slits: forces of their gaps over openings, a square matrix row by row; the "
-            "stiffness is that with all gaps closed"),
+            "rotation_stiffness", "N*m/rad", kNone,
+            "Stiffness, moments per rotation: three diagonal entries, or nine row by row"),
+        Key::quantities(
+            "coupling_stiffness", "N/rad", kNone,
+            "Stiffness, forces per rotation: three diagonal entries, or nine row by row"),
+        Key::quantities("gap_stiffness", "N/m", kNone,
+                        "Forces of the slits' gaps per opening: a square matrix row by row; the "
+                        "other stiffnesses apply to closed gaps"),
         Key::quantities(
             "bending_angles", "rad", kNone,
-            "Of a nonlinear solution of the section under bending moments at its ends: angles "
-            "between them, the first 0"),
+            "Nonlinear bending curve: angles between the ends under bending moments, the first 0"),
         Key::quantities("bending_moments", "N*m", kNone,
-                        "Moment of each angle, the first 0; the stiffness is multiplied by what "
-                        "the curve has over its first slope"),
+                        "Bending moment at each angle, the first 0; the stiffness is scaled by the "
+                        "ratio of the curve's slope to its first slope"),
         Key::quantities("gap_translation_coupling", "N/m", kNone,
-                        "Force of each gap over the top's three translations, gap by gap; negative "
-                        "where a motion opens the gap"),
+                        "Force of each gap per translation of the top, three per gap; negative if "
+                        "the motion opens the gap"),
         Key::quantities("gap_rotation_coupling", "N/rad", kNone,
-                        "Force of each gap over the top's three rotations, likewise"),
-        Key::file(
-            "modes_file", kNone,
-            "In place of length and stiffness: modes of a body with its base fixed that are the "
-            "static shapes of its top, and of slits that open"),
+                        "Force of each gap per rotation of the top, three per gap; negative if the "
+                        "motion opens the gap"),
+        Key::file("modes_file", kNone,
+                  "Instead of length and stiffness: modes file of a body with a fixed base whose "
+                  "modes are the static shapes of its top and of its opening slits"),
         kMadeByKey,
-        Key::text(
-            "piece", kNone,
-            "In a study in place of modes_file: the piece of [substructures] that the section is"),
-        Key::text("base", kNone, "Of the piece or modes_file: the interface on the fixed nodes"),
-        Key::text("top", kNone, "Of the piece or modes_file: the interface of the static shapes"),
+        Key::text("piece", kNone,
+                  "Instead of modes_file, in a study: the substructure of [substructures] that "
+                  "forms the section"),
+        Key::text("base", kNone, "Interface of the substructure or modes_file at the fixed nodes"),
+        Key::text("top", kNone,
+                  "Interface of the substructure or modes_file that has the static shapes"),
         Key::number("slit_friction", "0",
-                    "Coefficient of Coulomb friction between the sides of its one slit while it is "
-                    "shut, of a piece or modes_file with slits = \"openings-and-sliding\"; 0: they "
-                    "slide freely",
+                    "Coefficient of Coulomb friction between the sides of the closed slit, for a "
+                    "substructure or modes_file with one slit and slits = "
+                    "\"openings-and-sliding\"; 0: the sides slide freely",
                     {.range = at_least(0)}),
         Key::quantity("slit_sliding_time", "s", "0.0001",
-                      "With slit_friction: within this time sides of an open slit slide to where "
-                      "no load acts on them, and shut ones to where friction holds them",
+                      "With slit_friction: time constant with which the sides of an open slit "
+                      "slide to their unloaded position, and those of a closed slit to the "
+                      "position where friction holds them",
                       {.range = kPositive}),
         Key::file("slow_modes_file", kNone,
-                  "As modes_file, with the moduli of slow motions; without it the whole stiffness "
-                  "relaxes by the shares"),
+                  "Like modes_file, with the moduli of slow motions; without it, relaxation_shares "
+                  "apply to the whole stiffness"),
     }),
     kRelaxationKeys);
 
@@ -131,7 +146,7 @@ Eigen::MatrixXd gap_rows(const StudyTable& table, const std::string& key, const 
 SectionStiffness with_gaps(const StudyTable& table, const Matrix6d& motions) {
   if (!table.has("gap_stiffness")) {
     table.refuse_given({"gap_translation_coupling", "gap_rotation_coupling"},
-                       "it belongs to gap_stiffness, which is not there");
+                       "has no effect without gap_stiffness");
     return motions;
   }
   const std::vector<double> values = table.quantities("gap_stiffness", 0, "N/m");
@@ -170,14 +185,13 @@ SectionStiffness relaxing_part(const StudyTable& table, const multibody::Section
   if ((slow.top_m - slow.base_m - quick.rest_m).norm() > 1e-9 * quick.rest_m.norm() ||
       size != quick.stiffness.rows())
     table.refuse("slow_modes_file",
-                 "the section is not as long, or its slits do not open in as many ways, as that of "
-                 "modes_file");
+                 "expected the length and the number of slit openings of modes_file, found others");
   return quick.stiffness - slow.stiffness.bottomRightCorner(size, size);
 }
 
 multibody::LoadCurve bending_curve(const StudyTable& table) {
   if (!table.has("bending_angles")) {
-    table.refuse_given({"bending_moments"}, "it belongs to bending_angles, which is not there");
+    table.refuse_given({"bending_moments"}, "has no effect without bending_angles");
     return {};
   }
   const std::vector<double> angles = table.quantities("bending_angles");
@@ -189,7 +203,7 @@ multibody::LoadCurve bending_curve(const StudyTable& table) {
 multibody::SlitFriction read_friction(const StudyTable& table) {
   const double coefficient = table.number("slit_friction");
   if (!(coefficient > 0))
-    table.refuse_given({"slit_sliding_time"}, "it belongs to slit_friction, which is 0");
+    table.refuse_given({"slit_sliding_time"}, "has no effect without slit_friction, which is 0");
   return {0, coefficient, table.quantity("slit_sliding_time")};
 }
 
@@ -201,27 +215,26 @@ void read_stiffness(const StudyTable& table, std::size_t index, Assembly& assemb
       "gap_stiffness", "gap_translation_coupling", "gap_rotation_coupling"};
   const Relaxation relaxation = read_relaxation(table);
   if (table.has("slow_modes_file") && relaxation.times_s.empty())
-    table.refuse("slow_modes_file",
-                 "nothing relaxes: there are no relaxation_times and no relaxation_law");
+    table.refuse("slow_modes_file", "has no effect without relaxation_times or relaxation_law");
   if (!relaxation.times_s.empty()) assembly.relaxations.emplace(index, relaxation);
   if (table.has("piece")) {
-    table.refuse_given(own, "the piece gives it already");
+    table.refuse_given(own, "the substructure given by piece determines it already");
     table.refuse_given({"modes_file", "slow_modes_file", "made_by"},
                        "expected a piece or files, found both");
     if (!assembly.structure)
-      table.refuse("piece", "expected modes_file; pieces are those of a study's structure");
+      table.refuse("piece", "expected modes_file: only a study with [substructures] has pieces");
     assembly.of_pieces.push_back(
         {index, table.text("piece"), table.text("base"), table.text("top"), relaxation, table});
     return;
   }
   if (table.has("modes_file")) {
-    table.refuse_given(own, "modes_file gives it already");
+    table.refuse_given(own, "modes_file determines it already");
     const multibody::Section& section = assembly.model.forces.of<multibody::Section>()[index];
     use_condensed(condensed(table, "modes_file", sliding_of(section)), table, "modes_file", index,
                   assembly);
   } else {
     table.refuse_given({"base", "top", "slow_modes_file", "made_by", "slit_friction"},
-                       "it belongs to modes_file, which is not there");
+                       "has no effect without modes_file");
     if (!table.has("length"))
       table.refuse("length", "expected length and stiffness, or modes_file");
     multibody::Section& section = assembly.model.forces.of<multibody::Section>()[index];
@@ -247,16 +260,18 @@ void read_section(const StudyTable& table, Assembly& assembly) {
 }  // namespace
 
 ModelSection bushing_section() {
-  return {
-      Key::tables("bushing", "Linear springs and dampers between two markers in all six directions",
-                  kBushingKeys),
-      read_bushing};
+  return {Key::tables(
+              "bushing",
+              "Bushings: linear springs and dampers between two markers in six degrees of freedom",
+              kBushingKeys),
+          read_bushing};
 }
 
 ModelSection elastic_section() {
-  return {Key::tables("section", "Slender elastic parts between two markers, which may relax",
-                      kSectionKeys),
-          read_section};
+  return {
+      Key::tables("section", "Sections: slender elastic or viscoelastic parts between two markers",
+                  kSectionKeys),
+      read_section};
 }
 
 }  // namespace flexneck::pipeline

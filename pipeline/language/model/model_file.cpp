@@ -25,42 +25,45 @@ std::vector<std::string> linearised_about() { return {"equilibrium", "given"}; }
 
 constexpr auto kSolverKeys = joined(
     std::to_array<Key>({
-        Key::quantity("end_time", "s", kRequired, "The run is from 0 to it", {.range = kPositive}),
-        Key::text("analysis", "motion", "Motion, or the static equilibrium at each output time",
+        Key::quantity("end_time", "s", kRequired, "End time of the run, which starts at 0",
+                      {.range = kPositive}),
+        Key::text("analysis", "motion", "Motion, or static equilibrium at each output time",
                   {.choices = analyses}),
         Key::text("start", "given",
-                  "As the bodies are given, or at rest against the prescribed bodies",
+                  "Initial state: as given for the bodies, or static equilibrium relative to the "
+                  "prescribed bodies",
                   {.choices = starts}),
         Key::quantities("gravity", "m/s^2", kNone,
-                        "Gravity in the world; none if the key is not there", {.size = 3}),
+                        "Acceleration of gravity, in the world (default: none)", {.size = 3}),
     }),
     kStepKeys);
 
 constexpr Key kLinearisationKeys[] = {
-    Key::text("about", kRequired, "Equilibrium or steady rotation, or the state that is given",
+    Key::text("about", kRequired,
+              "State about which the model is linearised: equilibrium or steady rotation, or the "
+              "given state",
               {.choices = linearised_about}),
-    Key::quantities("rates", "rad/s", kNone,
-                    "Rates of the bodies that turn, for a Campbell diagram"),
+    Key::quantities("rates", "rad/s", kNone, "Rates of rotation for a Campbell diagram"),
 };
 
 constexpr Key kOutputKeys[] = {
-    Key::quantity("interval", "s", "0.001", "Time between outputs", {.range = kPositive}),
-    Key::texts("markers", kNone,
-               "Markers whose histories are written; all if the key is not there"),
-    Key::texts("joints", kNone, "Joints whose histories are written; all if the key is not there"),
+    Key::quantity("interval", "s", "0.001", "Output interval", {.range = kPositive}),
+    Key::texts("markers", kNone, "Markers whose histories are written (default: all)"),
+    Key::texts("joints", kNone, "Joints whose histories are written (default: all)"),
     Key::flag("states", "false",
-              "Whether the states of all bodies are written, for a run that goes on from them"),
+              "Write the states of all bodies, from which another run can be restarted"),
 };
 
 void read_solver(const StudyTable& table, ModelFile& file) {
   read_steps(table, file.solver);
   file.analysis = static_cast<ModelFile::Analysis>(table.choice("analysis"));
   if (file.analysis == ModelFile::Analysis::quasi_static) {
-    table.refuse_given({"start"},
-                       "a quasi-static analysis is at rest all the time; leave this key "
-                       "out");
-    table.refuse_given({"integrator", "spectral_radius", "max_step", "min_step", "max_steps"},
-                       "a quasi-static analysis takes no steps in time; leave this key out");
+    table.refuse_given(
+        {"start"},
+        "has no effect in a quasi-static analysis, which is always at rest; remove this key");
+    table.refuse_given(
+        {"integrator", "spectral_radius", "max_step", "min_step", "max_steps"},
+        "has no effect in a quasi-static analysis, which takes no time steps; remove this key");
   }
   file.start = static_cast<ModelFile::Start>(table.choice("start"));
   if (table.has("gravity")) file.model.gravity_m_s2 = quantity_vector(table, "gravity");
@@ -75,7 +78,9 @@ void read_linearisation(const StudyTable& root, ModelFile& file) {
   if (table.has("rates")) {
     file.rates_rad_s = table.quantities("rates");
     if (file.linearised_at != multibody::LinearisedAt::equilibrium)
-      table.refuse("rates", "a Campbell diagram is about steady rotation: about = \"equilibrium\"");
+      table.refuse("rates",
+                   "a Campbell diagram needs a linearisation about steady rotation; set about = "
+                   "\"equilibrium\"");
   }
   table.finish();
 }
@@ -102,7 +107,7 @@ void read_output(const StudyTable& root, ModelFile& file) {
   output.joints = chosen(table, "joints", names_of(file.model.joints), "joint");
   output.states = table.flag("states");
   if (output.states && file.analysis == ModelFile::Analysis::quasi_static)
-    table.refuse("states", "a quasi-static analysis has none; leave this key out");
+    table.refuse("states", "a quasi-static analysis has no states; remove this key");
   table.finish();
   for (const StudyTable& channel : root.tables("channel"))
     output.channels.push_back(read_channel(channel, file.model, output.interval_s));
@@ -120,12 +125,14 @@ std::string rest_of(const ModelFile& file) {
 void restart(const StudyTable& root, ModelFile& file) {
   if (!root.has("restart")) return;
   if (!rest_of(file).empty())
-    root.refuse("restart", rest_of(file) + ", but a restart begins in motion; leave one out");
+    root.refuse("restart",
+                rest_of(file) + ", but a restart continues a motion; remove one of them");
   if (file.linearised_at)
-    root.refuse("restart", "a linearisation is at time zero; leave one of them out");
+    root.refuse("restart",
+                "a linearisation is made at time zero, a restart starts later; remove one of them");
   read_restart(root.table("restart"), file.model, file.warnings);
   if (!(file.model.start.time_s < file.end_time_s))
-    root.refuse("restart", "expected a time before the end_time of [solver]");
+    root.refuse("restart", "expected a time before end_time of [solver]");
 }
 
 /// Completes the model across its tables; these messages name no line.
@@ -151,22 +158,23 @@ std::span<const Key> model_keys() {
     std::vector<Key> all = {
         variables_key(),
         assembly_key(),
-        Key::table("solver", "Length, start and integration of the run", kSolverKeys),
+        Key::table("solver", "Duration, initial state and time integration of the run",
+                   kSolverKeys),
         Key::table("restart",
-                   "The state of an output of another run, from which this one goes on in place of "
-                   "all starts",
+                   "Restart from the state at an output of another run, instead of the initial "
+                   "states of the model",
                    kRestartKeys),
         Key::table("linearisation",
-                   "Frequencies, damping ratios and shapes of small motions, besides the run",
+                   "Linearisation: frequencies, damping ratios and mode shapes of small motions, "
+                   "in addition to the run",
                    kLinearisationKeys),
     };
     for (const ModelSection& section : model_sections()) all.push_back(section.key);
-    all.push_back(Key::table("output", "What is written", kOutputKeys));
-    all.push_back(
-        Key::tables("channel",
-                    "Curves for the table, the CSV file and the history; without any, a set of all "
-                    "markers, joints, modes and energies",
-                    channel_keys()));
+    all.push_back(Key::table("output", "Output of results", kOutputKeys));
+    all.push_back(Key::tables("channel",
+                              "Output channels for the table, the CSV file and the history "
+                              "(default: all markers, joints, modes and energies)",
+                              channel_keys()));
     return all;
   }();
   return keys;
@@ -200,9 +208,9 @@ ModelFile read_model_file(const DocumentSource& source, const std::vector<std::s
   file.parameters = document.parameters();
   const auto is_resolution = [](const Parameter& each) { return each.key == "solver.resolution"; };
   if (file.has_expressions && std::ranges::none_of(file.parameters, is_resolution))
-    file.parameters.push_back({"solver.resolution", exact_text(file.solver.resolution_s) + " s",
-                               Origin::synthetic,
-                               "of its expressions, as the file does not say it"});
+    file.parameters.push_back(
+        {"solver.resolution", exact_text(file.solver.resolution_s) + " s", Origin::synthetic,
+         "resolution of expressions; default, since the file does not give it"});
   return file;
 }
 

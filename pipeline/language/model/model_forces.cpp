@@ -20,11 +20,11 @@ std::vector<std::string> outsides() { return {"constant", "zero"}; }
 /// Keys of a load's magnitude, constant or as a table.
 constexpr auto kMagnitudeKeys =
     joined(std::to_array<Key>({
-               Key::quantity("magnitude", "N | N*m", kNone, "Magnitude at all times"),
-               Key::quantities("times", "s", kNone, "In place of magnitude: times of a table"),
+               Key::quantity("magnitude", "N | N*m", kNone, "Constant magnitude"),
+               Key::quantities("times", "s", kNone, "Instead of magnitude: times of a table"),
                Key::quantities("magnitudes", "N | N*m", kNone,
-                               "Magnitude at each time; linear between them"),
-               Key::text("outside", "constant", "What holds before and after the table",
+                               "Magnitude at each time; linear in between"),
+               Key::text("outside", "constant", "Magnitude before and after the table",
                          {.choices = outsides}),
            }),
            kCsvKeys);
@@ -33,36 +33,41 @@ constexpr auto kMagnitudeKeys =
 constexpr auto kLoadKeys = joined(
     std::to_array<Key>({
         Key::text("name", kRequired, "Name of the load"),
-        Key::text("marker", kRequired, "Marker that it acts at"),
+        Key::text("marker", kRequired, "Marker at which the load acts"),
         Key::numbers("direction", kRequired,
-                     "Direction in the world; of a follower in the marker's axes", {.size = 3}),
-        Key::flag("follows", "false", "Whether its direction turns with the marker"),
+                     "Direction in the world, or in the marker's axes for a follower load",
+                     {.size = 3}),
+        Key::flag("follows", "false", "Follower load: its direction rotates with the marker"),
     }),
     kMagnitudeKeys);
 
 constexpr Key kFunctionForceKeys[] = {
     Key::text("name", kRequired, "Name of the force"),
-    Key::text("lower", kRequired, "Marker whose moving axes and origin the motion is seen from"),
-    Key::text("upper", kRequired, "Marker that the load acts at; the opposite acts on the other"),
+    Key::text("lower", kRequired, "Marker relative to whose moving frame the motion is measured"),
+    Key::text("upper", kRequired,
+              "Marker at which the load acts; the opposite load acts at the lower marker"),
     Key::text("Fx", kNone,
-              "Force in N along the lower marker's x axis: a formula of t in s, of the upper "
-              "marker's place x, y, z in m, velocity vx, vy, vz in m/s, rotation vector rx, ry, rz "
-              "in rad and angular velocity wx, wy, wz in rad/s"),
+              "Force in N along the lower marker's x axis: a formula of t in s and of the upper "
+              "marker's position x, y, z in m, velocity vx, vy, vz in m/s, rotation vector rx, ry, "
+              "rz in rad and angular velocity wx, wy, wz in rad/s"),
     Key::text("Fy", kNone, "Along y"),
     Key::text("Fz", kNone, "Along z"),
-    Key::text("Mx", kNone, "Moment in N m about x at the upper marker, likewise"),
+    Key::text("Mx", kNone,
+              "Moment in N m about the lower marker's x axis at the upper marker: a formula like "
+              "that of Fx"),
     Key::text("My", kNone, "About y"),
     Key::text("Mz", kNone, "About z"),
     kBreakpointsKey,
 };
 
-constexpr auto kLineForceKeys = joined(
-    std::to_array<Key>({
-        Key::text("name", kRequired, "Name of the force"),
-        Key::text("lower", kRequired, "Marker at the one end"),
-        Key::text("upper", kRequired, "Marker at the other, which a positive force pushes away"),
-    }),
-    kMagnitudeKeys);
+constexpr auto kLineForceKeys =
+    joined(std::to_array<Key>({
+               Key::text("name", kRequired, "Name of the force"),
+               Key::text("lower", kRequired, "Marker at one end"),
+               Key::text("upper", kRequired,
+                         "Marker at the other end; a positive force pushes the two apart"),
+           }),
+           kMagnitudeKeys);
 
 /// Reads a load that is constant, under the key `constant`, or given by a table.
 TimeTable load_over_time(const StudyTable& table, const std::string& constant,
@@ -71,7 +76,7 @@ TimeTable load_over_time(const StudyTable& table, const std::string& constant,
       table.choice("outside") == 1 ? TimeTable::Outside::zero : TimeTable::Outside::constant;
   if (table.has(constant)) {
     table.refuse_given({keys.x, keys.y, "table", "column", "outside"},
-                       "the load is given already by '" + constant + "', at all times");
+                       "the load is already given by '" + constant + "', which is constant");
     return {{0.0}, {table.quantity(constant, keys.y_unit)}, TimeTable::Outside::constant};
   }
   const TableColumns columns = read_columns(table, keys);
@@ -87,25 +92,25 @@ TimeTable load_over_time(const StudyTable& table, const std::string& constant,
 constexpr auto kSpringKeys =
     joined(std::to_array<Key>({
                Key::text("name", kRequired, "Name of the spring"),
-               Key::text("lower", kRequired, "Marker at the one end"),
-               Key::text("upper", kRequired, "Marker at the other"),
-               Key::quantity("free_length", "m", kRequired, "Length without load"),
-               Key::flag("tension_only", "false", "Whether it pulls only"),
+               Key::text("lower", kRequired, "Marker at one end"),
+               Key::text("upper", kRequired, "Marker at the other end"),
+               Key::quantity("free_length", "m", kRequired, "Length of the unloaded spring"),
+               Key::flag("tension_only", "false", "The spring acts in tension only"),
            }),
            joined(kResistanceKeys, kCsvKeys));
 
 std::vector<std::string> coordinates() { return {"distance", "angle", "flexion"}; }
 
-constexpr auto kJointResistanceKeys = joined(
-    std::to_array<Key>({
-        Key::text("name", kRequired, "Name of the resistance"),
-        Key::text("joint", kRequired, "Joint that it acts in"),
-        Key::text("coordinate", kRequired,
-                  "Which motion of the joint it resists; flexion is the angle between the axis on "
-                  "one body and on the other",
-                  {.choices = coordinates}),
-    }),
-    joined(kResistanceKeys, kCsvKeys));
+constexpr auto kJointResistanceKeys =
+    joined(std::to_array<Key>({
+               Key::text("name", kRequired, "Name of the resistance"),
+               Key::text("joint", kRequired, "Joint in which the resistance acts"),
+               Key::text("coordinate", kRequired,
+                         "Motion of the joint that is resisted; flexion is the angle between the "
+                         "joint's axes on the two bodies",
+                         {.choices = coordinates}),
+           }),
+           joined(kResistanceKeys, kCsvKeys));
 
 void read_force(const StudyTable& table, Assembly& assembly) {
   multibody::PointForce force;
@@ -164,21 +169,19 @@ void read_line_force(const StudyTable& table, Assembly& assembly) {
 
 constexpr auto kCableKeys = std::to_array<Key>({
     Key::text("name", kRequired, "Name of the cable"),
-    Key::text("lower", kRequired, "Marker at its one end, in whose axes the axis is"),
-    Key::text("upper", kRequired, "Marker at the other"),
-    Key::numbers("axis", kNone, "Direction of the part in whose hole it runs; z if it is not there",
+    Key::text("lower", kRequired, "Marker at one end, in whose axes the direction axis is given"),
+    Key::text("upper", kRequired, "Marker at the other end"),
+    Key::numbers("axis", kNone, "Direction of the hole in which the cable runs (default: z)",
                  {.size = 3}),
     Key::quantity(
         "length", "m", kNone,
-        "Length of its path under the preload; where the markers are at first if the key is "
-        "not there",
+        "Length of the cable's path at the preload (default: that of the initial positions)",
         {.range = kPositive}),
     Key::quantity("preload", "N", "0",
-                  "Its pull at that length, under which the part has its shape without load",
+                  "Tension of the cable at that length, included in the unloaded shape of the part",
                   {.range = at_least(0)}),
-    Key::quantity("stiffness", "N/m", kRequired, "Pull over what it is stretched",
-                  {.range = at_least(0)}),
-    Key::quantity("play", "m", "0", "What its path lengthens by before it is stretched",
+    Key::quantity("stiffness", "N/m", kRequired, "Tension per elongation", {.range = at_least(0)}),
+    Key::quantity("play", "m", "0", "Slack: elongation of the path before the cable is stretched",
                   {.range = at_least(0)}),
 });
 
@@ -213,7 +216,9 @@ void read_function_force(const StudyTable& table, Assembly& assembly) {
       return StateExpression(one);
     });
   }
-  if (!is_any) table.refuse("Fx", "expected a formula of at least one of Fx to Mz, found none");
+  if (!is_any)
+    table.refuse("Fx",
+                 "expected a formula for at least one of Fx, Fy, Fz, Mx, My and Mz, found none");
   assembly.model.forces.add(function_force_of(force));
   assembly.has_expressions = true;
   table.finish();
@@ -225,21 +230,23 @@ std::vector<ModelSection> force_sections() {
   return {
       {Key::tables("force", "Forces at markers", kLoadKeys), read_force},
       {Key::tables("torque", "Torques at markers", kLoadKeys), read_torque},
-      {Key::tables("line_force", "Forces between two markers along the line between them",
-                   kLineForceKeys),
+      {Key::tables("line_force", "Forces along the line between two markers", kLineForceKeys),
        read_line_force},
-      {Key::tables("cable", "Cables in the holes of parts that bend, between two markers",
+      {Key::tables("cable", "Cables between two markers, in the hole of a part that bends",
                    kCableKeys),
        read_cable},
       {Key::tables("spring", "Springs and dampers between the origins of two markers", kSpringKeys),
        read_spring},
       bushing_section(),
       elastic_section(),
-      {Key::tables("resistance", "Resistances to the motion of joints", kJointResistanceKeys),
+      {Key::tables("resistance",
+                   "Resistances to the motion of joints: stiffness, damping, friction and stops",
+                   kJointResistanceKeys),
        read_resistance},
-      {Key::tables("function_force",
-                   "Loads between two markers by formulas of time and of their motion",
-                   kFunctionForceKeys),
+      {Key::tables(
+           "function_force",
+           "Loads between two markers, given by formulas of time and of their relative motion",
+           kFunctionForceKeys),
        read_function_force},
   };
 }

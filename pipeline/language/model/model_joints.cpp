@@ -42,25 +42,26 @@ namespace {
 
 constexpr auto kJointKeys = std::to_array<Key>({
     Key::text("name", kRequired, "Name of the joint"),
-    Key::text("kind", kRequired, "Which motion it leaves",
+    Key::text("kind", kRequired, "Kind of joint",
               {.choices = [] { return names_of_kinds(multibody::kJointKinds); }}),
     Key::text("lower", kRequired, "Marker of the lower body"),
     Key::text("upper", kRequired,
               "Marker of the upper body, on which the lower one exerts the reaction"),
     Key::numbers("axis", kNone,
-                 "Axis, in both markers' axes; of a universal joint in the lower one's",
+                 "Axis of the joint, in the axes of both markers; for a universal joint in those "
+                 "of the lower one",
                  {.size = 3}),
-    Key::numbers("second_axis", kNone, "Of a universal joint: axis in the upper marker's axes",
-                 {.size = 3}),
-    Key::quantity("length", "m", kNone, "Of a distance joint: distance of the markers"),
-    Key::quantity("lead", "m", kNone, "Of a screw joint: motion along the axis at every turn"),
-    Key::quantity(
-        "angle", "rad", "0",
-        "Angle at the start, of any turn; without it, what bodies' places say within half "
-        "a turn"),
-    Key::quantity("rate", "rad/s", "0", "Its rate at the start"),
-    Key::quantity("distance", "m", "0", "Distance along the axis at the start"),
-    Key::quantity("speed", "m/s", "0", "Its rate at the start"),
+    Key::numbers("second_axis", kNone,
+                 "Second axis of a universal joint, in the axes of the upper marker", {.size = 3}),
+    Key::quantity("length", "m", kNone, "Distance of the markers of a distance joint"),
+    Key::quantity("lead", "m", kNone,
+                  "Pitch of a screw joint: travel along the axis per revolution"),
+    Key::quantity("angle", "rad", "0",
+                  "Initial angle, any number of turns; if not given, from the bodies' positions, "
+                  "-180 to 180 deg"),
+    Key::quantity("rate", "rad/s", "0", "Initial rate of the angle"),
+    Key::quantity("distance", "m", "0", "Initial displacement along the axis"),
+    Key::quantity("speed", "m/s", "0", "Initial rate of the displacement"),
 });
 
 void read_joint(const StudyTable& table, Assembly& assembly) {

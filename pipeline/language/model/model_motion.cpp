@@ -31,63 +31,62 @@ const MotionKeys kAngle = {"angle", "angle_table", "rad", "initial_rate", "rad/s
 
 /// Keys of a motion besides those of the coordinate and kCsvKeys.
 constexpr auto kMotionKeys = std::to_array<Key>({
-    Key::quantities("times", "s", kNone, "Times of a motion given by lists"),
+    Key::quantities("times", "s", kNone, "Times of a motion that is given by lists"),
     Key::expression_or_quantities("acceleration", "m/s^2 | rad/s^2", kNone,
-                                  "Acceleration at each time, or an expression of t"),
+                                  "Acceleration at each time, or an expression of the time t"),
     Key::quantities("pulse_times", "s", kNone,
-                    "Times of a pulse that is scaled so that it brings the motion to rest"),
+                    "Times of a deceleration pulse that is scaled so that it stops the motion"),
     Key::quantities("pulse_deceleration", "m/s^2 | rad/s^2", kNone,
-                    "Deceleration at each of these times, of any size"),
+                    "Deceleration at each of these times; only its shape matters"),
     kBreakpointsKey,
 });
 
 constexpr auto kAngleKeys = std::to_array<Key>({
     Key::expression_or_quantities("angle", "rad", kNone,
-                                  "Angle at each time, or an expression of t"),
-    Key::file("angle_table", kNone, "CSV file of angles over time"),
-    Key::quantity("initial_rate", "rad/s", "0", "Rate at the start, to which the motion adds"),
+                                  "Angle at each time, or an expression of the time t"),
+    Key::file("angle_table", kNone, "CSV file with the angle over time"),
+    Key::quantity("initial_rate", "rad/s", "0",
+                  "Initial rate of rotation, to which the motion is added"),
 });
 
-constexpr auto kTurnKeys =
-    joined(std::to_array<Key>({
-               Key::numbers("axis", kRequired, "Axis in the world", {.size = 3}),
-               Key::quantities("point", "m", kNone,
-                               "Point of the axis; the body's position if the key is not there",
-                               {.size = 3}),
-           }),
-           joined(kAngleKeys, joined(kMotionKeys, kCsvKeys)));
+constexpr auto kTurnKeys = joined(
+    std::to_array<Key>({
+        Key::numbers("axis", kRequired, "Axis of rotation, in the world", {.size = 3}),
+        Key::quantities("point", "m", kNone,
+                        "Point on the axis (default: the position of the body)", {.size = 3}),
+    }),
+    joined(kAngleKeys, joined(kMotionKeys, kCsvKeys)));
 
 constexpr auto kPrescribedKeys = joined(
     std::to_array<Key>({
-        Key::numbers(
-            "direction", kNone,
-            "Of a prescribed body: direction of its travel in the world; x if the key is not there",
-            {.size = 3}),
+        Key::numbers("direction", kNone,
+                     "Direction of travel of a prescribed body, in the world (default: x)",
+                     {.size = 3}),
         Key::expression_or_quantities("displacement", "m", kNone,
-                                      "Displacement at each time, or an expression of t"),
-        Key::file("displacement_table", kNone, "CSV file of displacements over time"),
+                                      "Displacement at each time, or an expression of the time t"),
+        Key::file("displacement_table", kNone, "CSV file with the displacement over time"),
         Key::quantity("initial_velocity", "m/s", "0",
-                      "Velocity along the direction at the start, to which the motion adds"),
+                      "Initial velocity along the direction, to which the motion is added"),
         Key::table("turn", "Rotation of a prescribed body", kTurnKeys),
     }),
     joined(kMotionKeys, kCsvKeys));
 
 std::vector<std::string> motor_coordinates() { return {"angle", "distance"}; }
 
-constexpr auto kMotorKeys =
-    joined(joined(std::to_array<Key>({
-                      Key::text("name", kRequired, "Name of the motor"),
-                      Key::text("joint", kRequired, "Joint that it moves"),
-                      Key::text("coordinate", kRequired, "Which motion of the joint it prescribes",
-                                {.choices = motor_coordinates}),
-                      Key::expression_or_quantities("distance", "m", kNone,
-                                                    "Distance at each time, or an expression of t"),
-                      Key::file("distance_table", kNone, "CSV file of distances over time"),
-                      Key::quantity("initial_speed", "m/s", "0",
-                                    "Rate of the distance at the start, to which the motion adds"),
-                  }),
-                  kAngleKeys),
-           joined(kMotionKeys, kCsvKeys));
+constexpr auto kMotorKeys = joined(
+    joined(std::to_array<Key>({
+               Key::text("name", kRequired, "Name of the motor"),
+               Key::text("joint", kRequired, "Joint that the motor moves"),
+               Key::text("coordinate", kRequired, "Motion of the joint that the motor prescribes",
+                         {.choices = motor_coordinates}),
+               Key::expression_or_quantities(
+                   "distance", "m", kNone, "Distance at each time, or an expression of the time t"),
+               Key::file("distance_table", kNone, "CSV file with the distance over time"),
+               Key::quantity("initial_speed", "m/s", "0",
+                             "Initial rate of the distance, to which the motion is added"),
+           }),
+           kAngleKeys),
+    joined(kMotionKeys, kCsvKeys));
 
 struct Motion {
   double initial_rate = 0;
@@ -103,7 +102,7 @@ std::string motion_key(const StudyTable& table, const MotionKeys& keys) {
   for (const std::string& key : all) {
     if (!table.has(key)) continue;
     if (!found.empty())
-      table.refuse(key, "the motion is given already by '" + found + "'; give one motion only");
+      table.refuse(key, "the motion is already given by '" + found + "'; remove one of them");
     found = key;
   }
   return found;
@@ -157,9 +156,10 @@ Motion read_motion(const StudyTable& table, const MotionKeys& keys, Assembly& as
   const bool is_expression =
       !key.empty() && table.is_text(key) && (key == keys.value || key == "acceleration");
   if (!is_expression && table.has("breakpoints"))
-    table.refuse("breakpoints", "only a motion by an expression of t has them");
+    table.refuse("breakpoints",
+                 "has no effect without a motion that is given by an expression of t");
   if (key != "table" && key != keys.value_table)
-    table.refuse_given({"column"}, "has no effect without a file that it is a column of");
+    table.refuse_given({"column"}, "has no effect without a CSV file whose column it selects");
   if (key.empty()) return motion;
   if (key == "pulse_times") {
     motion.acceleration = pulse(table, keys, motion.initial_rate);
@@ -184,8 +184,8 @@ multibody::PrescribedTurn read_turn(const StudyTable& table, const Eigen::Vector
   turn.motion = motion.function;
   if (motion_key(table, kAngle).empty() && !table.has(kAngle.rate))
     table.refuse("axis",
-                 "a turn needs a motion: angle, angle_table, times and acceleration, table, "
-                 "pulse_times or initial_rate");
+                 "expected the motion of the rotation: angle, angle_table, times and acceleration, "
+                 "table, pulse_times or initial_rate");
   table.finish();
   return turn;
 }
@@ -197,7 +197,8 @@ multibody::PrescribedTurn read_turn(const StudyTable& table, const Eigen::Vector
 void start_at(const JointMotor& motor, const StudyTable& table, std::optional<double>& value,
               std::optional<double>& rate) {
   if (rate)
-    table.refuse("joint", "its rate is given by the joint and by this motor; leave one out");
+    table.refuse("joint",
+                 "the initial rate is given by the joint and by this motor; remove one of them");
   value = motor.start + motor.path.value(0);
   rate = motor.path.rate(0);
 }
@@ -210,8 +211,9 @@ void read_motor(const StudyTable& table, Assembly& assembly) {
   const MotionKeys& keys = turns ? kAngle : kDistance;
   const Motion motion = read_motion(table, keys, assembly);
   if (motion_key(table, keys).empty() && !table.has(keys.rate))
-    table.refuse("name", "a motor needs a motion: " + keys.value + ", " + keys.value_table +
-                             ", times and acceleration, table, pulse_times or " + keys.rate);
+    table.refuse("name", "expected the motion of the motor: " + keys.value + ", " +
+                             keys.value_table + ", times and acceleration, table, pulse_times or " +
+                             keys.rate);
   motor.coordinate =
       turns ? multibody::JointCoordinate::angle : multibody::JointCoordinate::distance;
   motor.path = {motion.initial_rate, motion.acceleration, motion.function};
@@ -228,10 +230,7 @@ void read_motor(const StudyTable& table, Assembly& assembly) {
 }  // namespace
 
 ModelSection motor_section() {
-  return {
-      Key::tables("motor", "Motors, which make a joint follow a motion whatever load that takes",
-                  kMotorKeys),
-      read_motor};
+  return {Key::tables("motor", "Motors: prescribed motions of joints", kMotorKeys), read_motor};
 }
 
 std::span<const Key> prescribed_body_keys() { return kPrescribedKeys; }
@@ -245,8 +244,9 @@ bool gives_motion(const StudyTable& table) {
 void refuse_motion(const StudyTable& table) {
   for (const Key& row : prescribed_body_keys())
     if (table.has(std::string(row.name)))
-      table.refuse(std::string(row.name),
-                   "the case gives this body its motion; take this key away");
+      table.refuse(
+          std::string(row.name),
+          "has no effect, since the case determines the motion of this body; remove this key");
 }
 
 }  // namespace
@@ -257,7 +257,7 @@ PrescribedBody prescribed_body(const StudyTable& table, Assembly& assembly) {
   if (assembly.motion != Assembly::Motion::given && !gives_motion(table)) return body;
   if (table.has("direction")) body.direction = unit_vector(table, "direction");
   if (motion_key(table, kTravel).empty() && !table.has(kTravel.rate))
-    table.refuse_given({"direction"}, "has no effect on a body that turns only");
+    table.refuse_given({"direction"}, "has no effect on a body that only rotates");
   const Motion motion = read_motion(table, kTravel, assembly);
   body.initial_velocity_m_s = motion.initial_rate;
   body.acceleration_m_s2 = motion.acceleration;
@@ -268,9 +268,9 @@ PrescribedBody prescribed_body(const StudyTable& table, Assembly& assembly) {
     body.turn = read_turn(table.table("turn"), position_m, assembly);
   } else if (!gives_motion(table)) {
     table.refuse("name",
-                 "a prescribed body needs a motion: times and acceleration, table, pulse_times, "
-                 "displacement, displacement_table, initial_velocity or [body.turn]; without one "
-                 "it is a ground");
+                 "expected the motion of a prescribed body: times and acceleration, table, "
+                 "pulse_times, displacement, displacement_table, initial_velocity or [body.turn]; "
+                 "a body without motion has kind = \"ground\"");
   }
   return body;
 }

@@ -53,8 +53,8 @@ auto at_key(const StudyTable& table, const std::string& key, const Make& make) {
 /// Key of the breakpoints of an expression of time.
 inline constexpr Key kBreakpointsKey =
     Key::quantities("breakpoints", "s", kNone,
-                    "Of an expression: times, increasing, at which steps end and between which "
-                    "features may be shorter than solver.resolution");
+                    "Breakpoints of an expression: increasing times at which a time step ends; "
+                    "features between them may be shorter than solver.resolution");
 std::vector<double> breakpoints(const StudyTable& table);
 
 /// Names and units of the two columns of a table, and the key of its file.

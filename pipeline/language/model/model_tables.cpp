@@ -33,10 +33,11 @@ Eigen::Quaterniond rotation_or_none(const StudyTable& table, const std::string& 
   const Eigen::Vector3d turn = quantity_vector(table, key);
   constexpr double kTurn = 2 * std::numbers::pi * (1 + 1e-9);
   if (turn.norm() > kTurn)
-    table.refuse(key, fmt::format("a place does not count turns, but the rotation vector is {:.6g} "
-                                  "rad long, more than a full one; take full turns off, or give a "
-                                  "joint its angle",
-                                  turn.norm()));
+    table.refuse(
+        key,
+        fmt::format("expected a rotation vector of less than one full revolution, found a length "
+                    "of {:.6g} rad; subtract full revolutions, or give the angle of a joint",
+                    turn.norm()));
   return Eigen::Quaterniond(multibody::rotation_exp(turn));
 }
 
@@ -53,8 +54,9 @@ TableColumns read_columns(const StudyTable& table, const ColumnKeys& keys) {
   }
   for (const std::string& key : {keys.x, keys.y})
     if (table.has(key))
-      table.refuse(key, "is given twice, here and by the key '" + keys.file +
-                            "'; leave one out, over a table of another file by " + key + " = []");
+      table.refuse(key, "is given both by this key and by the key '" + keys.file +
+                            "'; remove one of them, or override a table of an included file by " +
+                            key + " = []");
   const std::filesystem::path path = table.file(keys.file);
   return read_csv_columns(path, keys.x_unit, keys.y_unit, table.text("column"));
 }

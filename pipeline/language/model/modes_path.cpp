@@ -14,7 +14,8 @@ fs::path modes_path(const StudyTable& table, const std::string& key) {
   if (!here.empty() && fs::exists(here, none)) return here;
   // A file set on the command line is not the one that `made_by` describes.
   if (made_by.empty() || table.folder_of("made_by") != table.folder_of(key)) return path;
-  table.refuse(key, path.lexically_normal().string() + ": no such file, nor one here; make " +
+  table.refuse(key, path.lexically_normal().string() +
+                        ": no such file, and none in the current folder; make " +
                         (here.empty() ? path : here).string() + " with '" + made_by + "'");
 }
 

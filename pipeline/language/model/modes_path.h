@@ -10,7 +10,7 @@ namespace flexneck::pipeline {
 
 inline constexpr Key kMadeByKey =
     Key::text("made_by", kNone,
-              "Command that makes modes_file in the current folder, told where it is missing",
+              "Command that creates modes_file, shown in the error message if the file is missing",
               {.changes_results = false});
 
 /// Path of the modes' file that a key names: in the folder of the file with the key, or else, since

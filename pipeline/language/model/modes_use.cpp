@@ -21,21 +21,23 @@ constexpr KeyDetails kRatio = {.range = {.low = 0, .high = 10}};
 // and 0.05 give the same system damping within 0.3 %, the modes' 0.9 raises it by 4 %; the rate 2
 // zeta omega stays far from the explicit step's limit.
 constexpr Key kKeys[] = {
-    Key::texts("modes", kNone, "Names of the modes that are used; all if the key is not there"),
-    Key::one_or_numbers("damping_ratio", kNone, "Damping ratio of all modes, or of each", kRatio),
+    Key::texts("modes", kNone, "Names of the modes that are used (default: all)"),
+    Key::one_or_numbers("damping_ratio", kNone, "Damping ratio: one for all modes, or one per mode",
+                        kRatio),
     Key::number("correction_damping_ratio", "0.05",
-                "Where there is one damping_ratio: that of modes that only complete the static "
-                "compliance, which lets their ringing die out",
+                "With a single damping_ratio: damping ratio of the modes that only complete the "
+                "static compliance, so that their vibrations die out",
                 {.range = kRatio.range, .origin = Origin::inferred}),
     Key::quantity("damping_time", "s", kNone,
-                  "Besides or in its place: damping is this time multiplied by the stiffness",
+                  "Stiffness-proportional damping: this time multiplied by the stiffness, in "
+                  "addition to or instead of damping_ratio",
                   {.range = at_least(0)}),
-    Key::numbers("offset", kNone, "Permanent set of the modal coordinates, in kg^(1/2) m"),
-    Key::numbers(
-        "modal_coordinates", kNone,
-        "Modal coordinates at the start, in kg^(1/2) m; the offset if the key is not there"),
-    Key::numbers("modal_rates", kNone, "Their rates at the start, in kg^(1/2) m/s; zero if not"),
-    Key::flag("stress_stiffening", "false", "Whether the body's loads stiffen and soften it"),
+    Key::numbers("offset", kNone, "Modal coordinates of the permanent deformation, in kg^(1/2) m"),
+    Key::numbers("modal_coordinates", kNone,
+                 "Initial modal coordinates, in kg^(1/2) m (default: the offset)"),
+    Key::numbers("modal_rates", kNone,
+                 "Initial rates of the modal coordinates, in kg^(1/2) m/s (default: zero)"),
+    Key::flag("stress_stiffening", "false", "Include the geometric stiffness of the body's loads"),
 };
 
 void require_size(const ModesUse& use, const std::string& key, std::size_t found,
@@ -68,10 +70,9 @@ Eigen::VectorXd damping_ratios(const ModesUse& use, const fe_modal::ModalBody& m
 void use_gaps(const ModesUse& use, const fe_modal::ModalBody& all, const std::string& from,
               multibody::DeformableBody& body) {
   if (use.modes && *use.modes != std::vector<std::string>{"all"})
-    use.table.refuse("modes",
-                     "the slits of " + from + " open and close, which takes all its modes");
+    use.table.refuse("modes", "expected all modes, since the slits of " + from + " open and close");
   if (use.stress_stiffening)
-    use.table.refuse("stress_stiffening", "it is not offered with slits that open and close");
+    use.table.refuse("stress_stiffening", "not supported with slits that open and close");
   try {
     fe_modal::GapBody gaps = fe_modal::with_gap_coordinates(all);
     body.modes = std::move(gaps.modes);

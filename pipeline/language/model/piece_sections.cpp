@@ -38,11 +38,11 @@ void use_condensed(const fe_modal::CondensedSection& piece, const StudyTable& ta
   const Eigen::Index size = piece.stiffness.rows() - 6;
   const Eigen::Index gaps = size - 6 - piece.slides;
   if (gaps > Section::kMaxGaps)
-    table.refuse(key, "the body's slits open in " + std::to_string(gaps) +
-                          " ways, expected at most " + std::to_string(Section::kMaxGaps));
+    table.refuse(key, "expected slits with at most " + std::to_string(Section::kMaxGaps) +
+                          " openings, found " + std::to_string(gaps));
   if (piece.slides > Section::kMaxSlides)
-    table.refuse(key, "the sides of the body's slit slide in " + std::to_string(piece.slides) +
-                          " ways, expected at most " + std::to_string(Section::kMaxSlides));
+    table.refuse(key, "expected a slit with at most " + std::to_string(Section::kMaxSlides) +
+                          " sliding motions, found " + std::to_string(piece.slides));
   section.friction.slides = piece.slides;
   section.rest_m = piece.top_m - piece.base_m;
   section.stiffness = piece.stiffness.bottomRightCorner(size, size);
@@ -53,7 +53,8 @@ void use_condensed(const fe_modal::CondensedSection& piece, const StudyTable& ta
     if (!assembly.lumped.contains(marker.body)) continue;
     if (!marker.rotation.isApprox(Eigen::Quaterniond::Identity()))
       table.refuse(end == 0 ? "lower" : "upper",
-                   "expected a marker with the axes of its body, whose mass is that of sections");
+                   "expected a marker with the axes of its body, since the mass of the body is "
+                   "lumped from sections");
     add_mass(ends[end], marker,
              std::get<multibody::RigidBody>(assembly.model.bodies[marker.body].kind));
   }

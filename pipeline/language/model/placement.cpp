@@ -129,8 +129,9 @@ void place_bodies(Model& model, const std::vector<JointStart>& starts, std::vect
        });
   for (std::size_t b = 0; b < posed.size(); ++b) {
     if (posed[b]) continue;
-    throw InputError("no joint or section connects the body '" + model.bodies[b].name +
-                     "' with one whose place is known; join it, or give it a position");
+    throw InputError("the position of body '" + model.bodies[b].name +
+                     "' is not determined: no joint or section connects it to a body whose "
+                     "position is known; add a joint, or give the body a position");
   }
   for (multibody::Cable& cable : model.forces.of<multibody::Cable>()) {
     if (cable.length_m != multibody::Cable::kAsPlaced) continue;

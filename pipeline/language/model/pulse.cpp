@@ -28,7 +28,7 @@ FittedPulse fitted_pulse(const std::vector<double>& times_s,
   FittedPulse pulse;
   pulse.area_m_s = times_s.empty() ? 0 : given.integral(times_s.back());
   if (!(pulse.area_m_s > 0)) {
-    throw InputError("expected a pulse that brakes, found one whose integral is " +
+    throw InputError("expected a decelerating pulse, found one whose integral is " +
                      rounded_text(pulse.area_m_s) + " in SI units");
   }
   const double factor = velocity_m_s / pulse.area_m_s;

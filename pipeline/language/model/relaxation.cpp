@@ -31,13 +31,14 @@ double shift_factor(const StudyTable& shift) {
   const double low_K = shift.quantity("from");
   const double high_K = shift.quantity("to");
   if (!(low_K <= temperature_K && temperature_K <= high_K))
-    shift.refuse("temperature", "expected one within the range of the shift, " +
+    shift.refuse("temperature", "expected a temperature within the range of the shift, " +
                                     rounded_text(low_K) + " K to " + rounded_text(high_K) +
                                     " K, found " + rounded_text(temperature_K) + " K");
   const double above_K = temperature_K - shift.quantity("reference");
   const double c2_K = shift.quantity("c2");
   if (!(c2_K + above_K > 0))
-    shift.refuse("c2", "expected more than what the temperature is below the reference");
+    shift.refuse(
+        "c2", "expected more than the difference of the reference temperature and the temperature");
   const double factor = std::pow(10.0, -shift.number("c1") * above_K / (c2_K + above_K));
   shift.finish();
   return factor;
@@ -50,19 +51,19 @@ Relaxation given_branches(const StudyTable& table) {
     relaxation.times_s = table.quantities("relaxation_times", 0, "s");
   if (table.has("relaxation_shares")) relaxation.shares = table.numbers("relaxation_shares");
   if (relaxation.shares.size() != relaxation.times_s.size())
-    table.refuse("relaxation_shares", "expected one for each of relaxation_times, " +
+    table.refuse("relaxation_shares", "expected one share per relaxation time, " +
                                           std::to_string(relaxation.times_s.size()) + ", found " +
                                           std::to_string(relaxation.shares.size()));
   for (const double share : relaxation.shares)
     if (!(share > 0)) table.refuse("relaxation_shares", "expected positive shares");
   if (relaxation.sum_of_shares() > 1 + 1e-12)
-    table.refuse("relaxation_shares", "their sum is above one: more than the stiffness relaxes");
+    table.refuse("relaxation_shares", "expected shares whose sum is at most 1");
   return relaxation;
 }
 
 Relaxation fitted_branches(const StudyTable& table) {
   table.refuse_given({"relaxation_times", "relaxation_shares"},
-                     "they are fitted to relaxation_law already");
+                     "has no effect beside relaxation_law, to which the branches are fitted");
   return read_relaxation_law(table.table("relaxation_law"));
 }
 
@@ -80,7 +81,7 @@ Relaxation read_relaxation(const StudyTable& table) {
       table.has("relaxation_law") ? fitted_branches(table) : given_branches(table);
   if (relaxation.times_s.empty()) {
     table.refuse_given({"shift", "relaxation_band"},
-                       "nothing relaxes: there are no relaxation_times and no relaxation_law");
+                       "has no effect without relaxation_times or relaxation_law");
     return relaxation;
   }
   if (table.has("relaxation_band")) relaxation.band_Hz = read_band(table);

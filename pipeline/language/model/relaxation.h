@@ -30,28 +30,29 @@ struct Relaxation {
 /// Keys of the temperature shift: Williams, Landel and Ferry, J. Am. Chem. Soc. 77 (1955) 3701.
 inline constexpr Key kShiftKeys[] = {
     Key::quantity("temperature", "K", kRequired, "Temperature of the rubber"),
-    Key::quantity("reference", "K", kRequired, "Temperature at which the relaxation times hold"),
+    Key::quantity("reference", "K", kRequired, "Reference temperature of the relaxation times"),
     Key::number("c1", kRequired,
-                "Relaxation times are multiplied by 10^(-c1 d / (c2 + d)), d being "
-                "what the temperature is above the reference"),
+                "Constant of the WLF shift: relaxation times are multiplied by 10^(-c1 d / (c2 + "
+                "d)), with the temperature difference d to the reference"),
     Key::quantity("c2", "K", kRequired, "See c1", {.range = kPositive}),
     Key::quantity("from", "K", kRequired, "Lowest temperature at which c1 and c2 were measured"),
-    Key::quantity("to", "K", kRequired, "Highest temperature, likewise"),
+    Key::quantity("to", "K", kRequired, "Highest temperature at which c1 and c2 were measured"),
 };
 
 inline constexpr auto kRelaxationKeys = std::to_array<Key>({
-    Key::quantities("relaxation_times", "s", kNone, "Relaxation times of Maxwell branches"),
+    Key::quantities("relaxation_times", "s", kNone, "Relaxation times of the Maxwell branches"),
     Key::numbers("relaxation_shares", kNone,
-                 "Of each branch, the share of the stiffness that it takes with it; their sum is "
-                 "at most one, and with slow_modes_file they share what that lacks"),
+                 "Fraction of the stiffness of each branch; the sum is at most one; with "
+                 "slow_modes_file, fractions of the difference of the two stiffnesses"),
     Key::table("relaxation_law",
-               "In place of relaxation_times and relaxation_shares: a law that they are fitted to",
+               "Instead of relaxation_times and relaxation_shares: a relaxation law to which they "
+               "are fitted",
                kRelaxationLawKeys),
-    Key::quantities("relaxation_band", "Hz", kNone,
-                    "Lowest and highest frequency at which the branches stand for the rubber, for "
-                    "the report",
-                    {.size = 2}),
-    Key::table("shift", "How temperature shifts the relaxation times", kShiftKeys),
+    Key::quantities(
+        "relaxation_band", "Hz", kNone,
+        "Lowest and highest frequency at which the branches represent the rubber, for the report",
+        {.size = 2}),
+    Key::table("shift", "Shift of the relaxation times with temperature", kShiftKeys),
 });
 
 /// Reads the keys kRelaxationKeys. @throws InputError at an invalid key, and for a temperature

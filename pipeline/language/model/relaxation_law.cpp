@@ -131,10 +131,10 @@ Relaxation fitted(const StudyTable& law, const Points& points, const std::vector
   const double error = largest_error(points, shares);
   if (!(error <= law.number("largest_error")))
     law.refuse("branches",
-               fmt::format("{} of them miss {} by {:.2g} of the modulus, expected at most "
-                           "largest_error; take more, or a narrower range",
+               fmt::format("{} branches fitted to {} have an error of {:.2g} of the modulus, "
+                           "expected at most largest_error; use more branches or a narrower range",
                            times_s.size(), what, error));
-  if (branches.times_s.empty()) law.refuse("branches", "nothing relaxes in " + what);
+  if (branches.times_s.empty()) law.refuse("branches", "there is no relaxation in " + what);
   branches.fit = fmt::format("{} fitted to {}, largest error {:.2g} of the modulus",
                              branches.times_s.size(), what, error);
   return branches;
@@ -147,7 +147,7 @@ std::vector<double> ratios_of(const StudyTable& law, const std::string& key, std
   for (double& each : moduli) {
     if (!(each >= 0 && each <= modulus))
       law.refuse(key, fmt::format("expected moduli from 0 to 'modulus', {:g} Pa, so that the "
-                                  "spectrum does not sum above one, found {:g} Pa",
+                                  "shares do not exceed one, found {:g} Pa",
                                   modulus, each));
     each /= modulus;
   }
@@ -157,18 +157,19 @@ std::vector<double> ratios_of(const StudyTable& law, const std::string& key, std
 /// Values that are positive and increasing, at least two.
 std::vector<double> places(const StudyTable& law, const std::string& key) {
   std::vector<double> all = law.quantities(key);
-  if (all.size() < 2) law.refuse(key, "expected two or more");
+  if (all.size() < 2) law.refuse(key, "expected at least two values");
   for (std::size_t k = 0; k < all.size(); ++k)
     if (!(all[k] > (k == 0 ? 0 : all[k - 1])))
-      law.refuse(key, "expected positive values that increase strictly, but not so is number " +
-                          std::to_string(k + 1));
+      law.refuse(
+          key, "expected positive values that increase strictly, which is not the case for value " +
+                   std::to_string(k + 1));
   return all;
 }
 
 void refuse_others(const StudyTable& law, const std::vector<std::string>& keys,
                    const std::string& by) {
-  law.refuse_given(keys,
-                   "expected one law, a fractional one or a table; '" + by + "' begins another");
+  law.refuse_given(keys, "expected a single law, either fractional or given by a table; '" + by +
+                             "' belongs to another one");
 }
 
 std::string band_text(double low_Hz, double high_Hz) {
@@ -182,7 +183,7 @@ Relaxation of_fractional(const StudyTable& law, int count) {
   const double time_s = law.quantity("time");
   const double low_Hz = law.quantity("from");
   const double high_Hz = law.quantity("to");
-  if (!(high_Hz > low_Hz)) law.refuse("to", "expected more than 'from'");
+  if (!(high_Hz > low_Hz)) law.refuse("to", "expected a frequency above 'from'");
   constexpr double kPerDecade = 12;
   const auto points =
       static_cast<std::size_t>(std::ceil(kPerDecade * std::log10(high_Hz / low_Hz))) + 1;
@@ -211,7 +212,7 @@ Relaxation of_dynamic(const StudyTable& law, int count) {
   for (std::size_t k = 0; k < storage.size(); ++k) {
     ratios.emplace_back(storage[k], loss[k]);
     if (std::abs(ratios.back()) == 0)
-      law.refuse("storage", "expected a modulus above zero at each of frequencies");
+      law.refuse("storage", "expected a modulus above zero at each frequency");
   }
   const std::vector<double> times_s =
       spread(1 / (2 * pi * frequencies_Hz.back()), 1 / (2 * pi * frequencies_Hz.front()), count);
@@ -228,7 +229,7 @@ Relaxation of_relaxation(const StudyTable& law, int count) {
     if (ratio == 0) law.refuse("moduli", "expected moduli above zero");
   const std::vector<double> times_s = spread(law_times_s.front(), law_times_s.back(), count);
   return fitted(law, relaxation_points(law_times_s, ratios, times_s), times_s,
-                fmt::format("a table of the relaxing modulus over {:g} to {:g} s",
+                fmt::format("a table of the relaxation modulus over {:g} to {:g} s",
                             law_times_s.front(), law_times_s.back()));
 }
 
@@ -245,8 +246,8 @@ Relaxation read_relaxation_law(const StudyTable& law) {
     found = of_relaxation(law, count);
   else
     law.refuse("order",
-               "expected a law: order, share and time, or frequencies, storage and loss, or times "
-               "and moduli");
+               "expected a relaxation law: order, share and time, or frequencies, storage and "
+               "loss, or times and moduli");
   law.finish();
   return found;
 }

@@ -22,7 +22,7 @@ LoadCurve polynomial(const StudyTable& table, const std::string& prefix,
 LoadCurve load_curve(const StudyTable& table, const ResistanceUnits& units) {
   const bool is_table = table.has("deflections") || table.has("table");
   if (!is_table && table.has("locks_at")) {
-    table.refuse_given({"quadratic", "cubic"}, "the curve is given already by locks_at");
+    table.refuse_given({"quadratic", "cubic"}, "the curve is already given by locks_at");
     return at_key(table, "locks_at", [&] {
       return LoadCurve::locking(table.quantity("stiffness", units.over("")),
                                 table.quantity("locks_at", units.deflection));
@@ -30,7 +30,7 @@ LoadCurve load_curve(const StudyTable& table, const ResistanceUnits& units) {
   }
   if (!is_table) return polynomial(table, "", units);
   table.refuse_given({"stiffness", "quadratic", "cubic", "locks_at"},
-                     "the curve is given already by a table");
+                     "the curve is already given by a table");
   TableColumns columns =
       read_columns(table, {"deflections", units.deflection, "loads", units.load});
   try {
@@ -59,7 +59,7 @@ ResistanceSide read_resistance_side(const StudyTable& table, const ResistanceUni
   side.stop = table.quantity("stop", units.deflection);
   if (!table.has("stop"))
     table.refuse_given({"stop_stiffness", "stop_quadratic", "stop_cubic"},
-                       "has no effect without 'stop', from where it acts");
+                       "has no effect without 'stop', beyond which it acts");
   side.beyond_stop = polynomial(table, "stop_", units);
   side.unloading_ratio = table.number("unloading_ratio");
   refuse_if_it_falls(table, side);
@@ -79,7 +79,7 @@ Resistance read_resistance_law(const StudyTable& table, const ResistanceUnits& u
     table.refuse_given(
         {"stiffness", "quadratic", "cubic", "locks_at", "deflections", "loads", "table", "column",
          "stop", "stop_stiffness", "stop_quadratic", "stop_cubic", "unloading_ratio", "may_fall"},
-        "has no effect beside 'positive' and 'negative', which give both directions");
+        "has no effect beside [positive] and [negative], which define both directions");
   side_of("positive", resistance.positive);
   side_of("negative", resistance.negative);
   resistance.damping = table.quantity("damping", units.load + "*s/" + units.deflection);

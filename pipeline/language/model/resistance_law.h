@@ -23,22 +23,26 @@ inline const ResistanceUnits kAngularUnits = {"rad", "N*m"};
 
 /// Keys of one direction, besides kCsvKeys.
 inline constexpr auto kResistanceSideKeys = std::to_array<Key>({
-    Key::quantity("stiffness", "N/m | N*m/rad", "0", "Load over deflection"),
-    Key::quantity("quadratic", "N/m^2 | N*m/rad^2", "0", "Load over the square of the deflection"),
-    Key::quantity("cubic", "N/m^3 | N*m/rad^3", "0", "Load over the cube of the deflection"),
+    Key::quantity("stiffness", "N/m | N*m/rad", "0", "Load per deflection"),
+    Key::quantity("quadratic", "N/m^2 | N*m/rad^2", "0", "Load per square of the deflection"),
+    Key::quantity("cubic", "N/m^3 | N*m/rad^3", "0", "Load per cube of the deflection"),
     Key::quantity("locks_at", "m | rad", kNone,
-                  "In place of quadratic and cubic: the deflection L at which it locks, the load "
-                  "being stiffness x / (1 - x / L)"),
-    Key::quantities("deflections", "m | rad", kNone,
-                    "In place of stiffness, quadratic and cubic: rows of a table, the first 0"),
-    Key::quantities("loads", "N | N*m", kNone, "Load of each deflection, the first 0"),
-    Key::quantity("stop", "m | rad", "inf", "Deflection beyond which another curve is added"),
+                  "Instead of quadratic and cubic: deflection L at which the joint locks; the load "
+                  "is stiffness x / (1 - x / L)"),
+    Key::quantities(
+        "deflections", "m | rad", kNone,
+        "Instead of stiffness, quadratic and cubic: deflections of a load curve, the first 0"),
+    Key::quantities("loads", "N | N*m", kNone, "Load at each deflection, the first 0"),
+    Key::quantity("stop", "m | rad", "inf", "Deflection beyond which the load of a stop is added"),
     Key::quantity("stop_stiffness", "N/m | N*m/rad", "0",
-                  "That curve's load over what exceeds the stop"),
-    Key::quantity("stop_quadratic", "N/m^2 | N*m/rad^2", "0", "Over its square"),
-    Key::quantity("stop_cubic", "N/m^3 | N*m/rad^3", "0", "Over its cube"),
-    Key::number("unloading_ratio", "1", "Load of unloading over that of loading"),
-    Key::flag("may_fall", "false", "Whether the load may fall as the deflection grows"),
+                  "Load of the stop per deflection beyond it"),
+    Key::quantity("stop_quadratic", "N/m^2 | N*m/rad^2", "0",
+                  "Load of the stop per square of the deflection beyond it"),
+    Key::quantity("stop_cubic", "N/m^3 | N*m/rad^3", "0",
+                  "Load of the stop per cube of the deflection beyond it"),
+    Key::number("unloading_ratio", "1",
+                "Hysteresis: ratio of the unloading load to the loading load"),
+    Key::flag("may_fall", "false", "Allow a load that falls as the deflection grows"),
 });
 
 inline constexpr auto kResistanceOneSideKeys = joined(kResistanceSideKeys, kCsvKeys);
@@ -46,13 +50,13 @@ inline constexpr auto kResistanceOneSideKeys = joined(kResistanceSideKeys, kCsvK
 /// Keys of a resistance, besides kCsvKeys.
 inline constexpr auto kResistanceKeys = joined(
     std::to_array<Key>({
-        Key::table("positive", "Resistance in the one direction only", kResistanceOneSideKeys),
-        Key::table("negative", "Resistance in the other", kResistanceOneSideKeys),
+        Key::table("positive", "Resistance in the positive direction only", kResistanceOneSideKeys),
+        Key::table("negative", "Resistance in the negative direction only", kResistanceOneSideKeys),
         Key::quantity("damping", "N*s/m | N*m*s/rad", "0", "Viscous damping"),
         Key::quantity("friction", "N | N*m", "0", "Coulomb friction"),
-        Key::quantity(
-            "full_rate", "m/s | rad/s", "0",
-            "Rate at which friction and hysteresis are complete; needed where there are any"),
+        Key::quantity("full_rate", "m/s | rad/s", "0",
+                      "Rate at which friction and hysteresis reach their full value; required with "
+                      "either of them"),
     }),
     kResistanceSideKeys);
 

@@ -43,7 +43,8 @@ void check_modes(const StudyTable& table, const Body& body, const History& histo
   const auto found = std::find_if(history.modal.begin(), history.modal.end(),
                                   [&](const auto& modal) { return modal.body == body.name; });
   if (found == history.modal.end() || found->modes != names_of(modes))
-    table.refuse("file", "the modes of body '" + body.name + "' are not those of this model");
+    table.refuse("file", "the modes of body '" + body.name +
+                             "' in the history differ from those of this model");
 }
 
 void take_state(const BodyHistory& state, Index at, Body& body) {
@@ -81,8 +82,8 @@ void take_angles(const StudyTable& table, const multibody::StateHistory& state, 
     if (!joint.kind->has_angle) continue;
     const std::optional<double> found = angle("joint " + joint.name);
     if (!found)
-      table.refuse("file", "the history does not say in which turn joint '" + joint.name +
-                               "' is; make it again with a joint of that name");
+      table.refuse("file", "the history does not contain the number of revolutions of joint '" +
+                               joint.name + "'; make it again with a joint of that name");
     joint.start_angle_rad = *found;
   }
   for (multibody::MeasuredAngle& each : model.angles)
@@ -114,21 +115,27 @@ void read_restart(const StudyTable& table, multibody::Model& model,
     const bool deforms = std::holds_alternative<DeformableBody>(body.kind);
     if (deforms) check_modes(table, body, history);
     if (!deforms && state->modal.rows() > 0)
-      table.refuse("file", "body '" + body.name + "' is deformable there and rigid here");
+      table.refuse("file",
+                   "body '" + body.name + "' is deformable in the history and rigid in this model");
     take_state(*state, at, body);
     if (const VectorXd here = multibody::inertia_of(body); differ(state->inertia, here))
       warnings.push_back(
-          fmt::format("restart: body '{}' has other masses here ({:.6g} kg) than in the history "
-                      "({:.6g} kg); it "
-                      "goes on with the velocities there, so that momenta and energies jump",
+          fmt::format("restart: body '{}' has a different mass in this model ({:.6g} kg) than in "
+                      "the history ({:.6g} kg); the run continues with the velocities of the "
+                      "history, so that momentum and energy jump",
                       body.name, here[0], state->inertia[0]));
     ++taken;
   }
   if (taken != states.size())
-    table.refuse("file", fmt::format("the history has the states of {} bodies, this model has {}",
-                                     states.size(), taken));
+    table.refuse(
+        "file",
+        fmt::format(
+            "expected the states of the same bodies, but the history has {} and this model has {}",
+            states.size(), taken));
   if (history.state.internal.rows() != multibody::internal_count(model.forces))
-    table.refuse("file", "the branches of the sections are not those of this model");
+    table.refuse(
+        "file",
+        "the relaxation branches of the sections in the history differ from those of this model");
   take_angles(table, history.state, at, model);
   model.start = {history.time_s[at], history.state.internal.col(at),
                  history.energy.dissipated_J[at], history.energy.work_J[at]};

@@ -11,8 +11,9 @@
 namespace flexneck::pipeline {
 
 inline constexpr std::array<Key, 2> kRestartKeys = {{
-    Key::file("file", kRequired, "History of a run of the same bodies, made with states = true"),
-    Key::quantity("time", "s", kRequired, "The output of it from which the run goes on",
+    Key::file("file", kRequired,
+              "History file of a run with the same bodies, written with states = true"),
+    Key::quantity("time", "s", kRequired, "Output time of that history at which this run starts",
                   {.range = at_least(0)}),
 }};
 

@@ -10,12 +10,12 @@ namespace flexneck::pipeline {
 
 /// Keys of mass, centre and inertia, needed for rigid bodies only.
 inline constexpr std::array<Key, 3> kRigidBodyKeys = {{
-    Key::quantity("mass", "kg", kNone, "Of a rigid body: its mass"),
+    Key::quantity("mass", "kg", kNone, "Mass of a rigid body"),
     Key::quantities("center", "m", kNone, "Centre of mass in the body's frame", {.size = 3}),
-    Key::quantities("inertia", "kg*m^2", kNone,
-                    "Inertia about the centre of mass: three principal moments, or xx, yy, zz, xy, "
-                    "xz, yz of the "
-                    "tensor, whose products carry its sign"),
+    Key::quantities(
+        "inertia", "kg*m^2", kNone,
+        "Inertia about the centre of mass: three principal moments, or xx, yy, zz, xy, xz, yz of "
+        "the inertia tensor (off-diagonal entries: the negative products of inertia)"),
 }};
 
 /// Inertia about the centre from its six elements xx, yy, zz, xy, xz, yz of the tensor, or from the

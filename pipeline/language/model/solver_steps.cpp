@@ -14,7 +14,7 @@ void read_steps(const StudyTable& table, multibody::SolverOptions& options) {
   options.resolution_s = table.quantity("resolution");
   if (options.integrator != multibody::Integrator::generalised_alpha)
     table.refuse_given({"spectral_radius"},
-                       "has no effect but with integrator = \"generalised_alpha\"; take it away");
+                       "has no effect without integrator = \"generalised_alpha\"; remove this key");
   options.spectral_radius = table.number("spectral_radius");
   if (!(options.max_step_s > options.min_step_s)) {
     table.refuse("max_step", "expected 0 < min_step < max_step");

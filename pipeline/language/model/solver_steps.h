@@ -16,24 +16,23 @@ inline std::vector<std::string> integrators() { return {"dormand_prince", "gener
 inline constexpr auto kStepKeys = std::to_array<Key>({
     Key::number("relative_tolerance", "1e-6", "Relative tolerance of a step", {.range = kPositive}),
     Key::number("absolute_tolerance", "1e-9", "Absolute tolerance of a step", {.range = kPositive}),
-    Key::quantity("max_step", "s", "0.05", "Largest step"),
-    Key::quantity("min_step", "s", "1e-10", "Smallest step, below which a run ends",
-                  {.range = kPositive}),
+    Key::quantity("max_step", "s", "0.05", "Largest time step"),
+    Key::quantity("min_step", "s", "1e-10",
+                  "Smallest time step; a run that needs a smaller one fails", {.range = kPositive}),
     Key::text("formulation", "automatic",
-              "Equations of motion: of all bodies with constraints, of joint coordinates, or "
-              "whichever "
-              "fits",
+              "Formulation of the equations of motion: descriptor (all bodies with constraints), "
+              "recursive (joint coordinates), or chosen automatically",
               {.choices = formulations}),
-    Key::text("integrator", "dormand_prince", "How a run steps through time",
-              {.choices = integrators}),
-    Key::number(
-        "spectral_radius", "0.8",
-        "Of generalised_alpha: by what a step multiplies vibrations that it does not resolve",
-        {.range = {.low = 0, .high = 1}}),
+    Key::text("integrator", "dormand_prince", "Time integration method", {.choices = integrators}),
+    Key::number("spectral_radius", "0.8",
+                "Spectral radius at infinite frequency of generalised_alpha: amplitude factor per "
+                "step of vibrations that the step does not resolve",
+                {.range = {.low = 0, .high = 1}}),
     Key::quantity("resolution", "s", "0.0001",
-                  "No feature of a motion or a load by an expression that is longer is missed",
+                  "Resolution of motions and loads given by expressions: features shorter than "
+                  "this may be missed",
                   {.range = kPositive}),
-    Key::count("max_steps", "10000000", "Steps after which a run is given up",
+    Key::count("max_steps", "10000000", "Maximum number of time steps; a run that needs more fails",
                {.range = at_least(1)}),
 });
 

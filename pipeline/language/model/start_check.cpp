@@ -62,7 +62,7 @@ std::string pose_keys(const Assembly& assembly, const Joint& joint) {
     return "body '" + body.name + "' with position = " + text(body.initial_pose.position_m) +
            " m and rotation = " + text(turn) + " rad";
   }
-  return "the place of its bodies, which other joints give,";
+  return "the position of its bodies, which follows from other joints";
 }
 
 std::string velocity_keys(const Assembly& assembly, const Joint& joint) {
@@ -73,14 +73,14 @@ std::string velocity_keys(const Assembly& assembly, const Joint& joint) {
     return "body '" + body.name + "' with velocity = " + text(body.initial_velocity_m_s) +
            " m/s and angular_velocity = " + text(body.initial_angular_velocity_rad_s) + " rad/s";
   }
-  return "the motion of its bodies, which other joints give,";
+  return "the velocity of its bodies, which follows from other joints";
 }
 
 [[noreturn]] void refuse(const Joint& joint, const std::string& key, double given,
                          const std::string& unit, const std::string& other, double found) {
   throw InputError(
-      fmt::format("joint '{}': {} = {:.6g} {}, but {} makes it {:.6g} {}; leave one of "
-                  "them out, or make them agree",
+      fmt::format("joint '{}': {} = {:.6g} {} contradicts {}, from which it is {:.6g} {}; remove "
+                  "one of them, or make them agree",
                   joint.name, key, given, unit, other, found, unit));
 }
 
@@ -112,7 +112,7 @@ void check_joint(const Assembly& assembly, std::size_t index) {
 void check_rest(const Assembly& assembly, const std::string& rest) {
   const std::string but =
       ", but " + rest +
-      ", where nothing moves against the prescribed bodies; leave one of them out";
+      ", in which no body moves relative to the prescribed bodies; remove one of them";
   for (std::size_t k = 0; k < assembly.starts.size(); ++k) {
     const std::string joint = "joint '" + assembly.model.joints[k].name + "': ";
     const JointStart& start = assembly.starts[k];

@@ -21,49 +21,51 @@ constexpr KeyDetails kAbove0 = {.range = kPositive};
 /// Keys that [pendulum] and [static] may give for all cases of a kind.
 constexpr auto kCaseKeys = std::to_array<Key>({
     Key::text("name", kRequired, "Name of the case"),
-    Key::text("kind", kRequired, "Which experiment it is", {.choices = case_kinds}),
+    Key::text("kind", kRequired, "Kind of experiment", {.choices = case_kinds}),
     Key::texts("bodies", kNone,
-               "Bodies of the study that the model has, with the joints between them; all if the "
-               "key is not there"),
-    Key::text("direction", kRequired, "Direction of the bending", {.choices = directions}),
-    Key::quantity("oblique_angle", "rad", kNone,
-                  "Of direction oblique, required there: from forwards towards the left",
-                  {.range = {.low = -3.1416, .high = 3.1416}}),
-    Key::quantity("duration", "s", kRequired, "Length of the run", kAbove0),
-    Key::texts("forces", kNone, "Forces, springs and resistances of the study that act in it"),
-    Key::quantity("drop_angle", "rad", kNone, "Angle that the arm falls from",
+               "Bodies of the study in the model, with the joints between them (default: all)"),
+    Key::text("direction", kRequired, "Direction of bending", {.choices = directions}),
+    Key::quantity(
+        "oblique_angle", "rad", kNone,
+        "Angle of the direction oblique, which requires it, from forwards towards the left",
+        {.range = {.low = -3.1416, .high = 3.1416}}),
+    Key::quantity("duration", "s", kRequired, "Duration of the run", kAbove0),
+    Key::texts("forces", kNone,
+               "Forces, springs and resistances of the study that act in the case"),
+    Key::quantity("drop_angle", "rad", kNone, "Angle from which the arm is released",
                   {.range = {.low = 0, .high = 3.1416, .has_low = false}}),
     Key::quantity("effective_length", "m", kNone,
-                  "Length of the mathematical pendulum that falls as the arm does", kAbove0),
-    Key::quantity("impact_velocity", "m/s", kNone, "In place of drop_angle and effective_length",
-                  kAbove0),
-    Key::text("pulse", kRequired, "Of a pendulum: its deceleration"),
+                  "Length of the mathematical pendulum that is equivalent to the arm", kAbove0),
+    Key::quantity("impact_velocity", "m/s", kNone,
+                  "Impact velocity, instead of drop_angle and effective_length", kAbove0),
+    Key::text("pulse", kRequired, "Pulse of the pendulum: the deceleration of its arm"),
     Key::text("pulse_scaling", "amplitude",
-              "What is scaled so that the pulse takes the whole velocity",
+              "Quantity of the pulse that is scaled so that it stops the arm",
               {.choices = pulse_scalings}),
-    Key::text("arm", "translating", "How the arm moves while the pulse acts", {.choices = arms}),
+    Key::text("arm", "translating", "Motion of the arm during the pulse", {.choices = arms}),
     Key::quantity("pivot_distance", "m", kNone,
-                  "Of a rotating arm: from its pivot to the neck's base", kAbove0),
+                  "Distance from the pivot of a rotating arm to the base of the neck", kAbove0),
     Key::quantity("accelerometer_distance", "m", kNone,
-                  "Of a rotating arm: from its pivot to where velocity and pulse are measured",
+                  "Distance from the pivot of a rotating arm to the accelerometer that measures "
+                  "velocity and pulse",
                   kAbove0),
     Key::quantity("moment_arm", "m", "0.0176784",
-                  "Of the load cell's moment about the condyles, M = My - arm Fx",
+                  "Arm of the load cell's moment about the occipital condyles, M = My - arm Fx",
                   {.range = at_least(0)}),
-    Key::text("force_filter", "CFC 600", "Channel class of Fx in it",
+    Key::text("force_filter", "CFC 600", "Channel frequency class of Fx in that moment",
               {.choices = channel_class_names}),
-    Key::text("moment_filter", "CFC 600", "Channel class of My in it",
+    Key::text("moment_filter", "CFC 600", "Channel frequency class of My in that moment",
               {.choices = channel_class_names}),
     Key::flag("equivalent_rigid_neck", "false",
-              "Whether a rigid link on two pivots, with the mass, the static stiffness and the "
-              "damping of the deformable neck, is in its place"),
+              "Replace the deformable neck by a rigid link on two pivots with the same mass, "
+              "static stiffness and damping"),
 });
 
 constexpr auto kVariantKeys = std::to_array<Key>({
-    Key::texts("of", kRequired, "Cases that the variant makes others of; a name may end in *"),
+    Key::texts("of", kRequired, "Cases that the variant is based on; a name may end in *"),
     Key::text("suffix", kNone,
-              "What it adds to the names of its cases, so that several variants may share it; its "
-              "name if the key is not there"),
+              "Suffix of the names of its cases, which several variants may share (default: the "
+              "variant's name)"),
 });
 
 /// Rotation of a hanging neck, the head below the arm: the neck's z is the world's -z, x is
@@ -118,7 +120,7 @@ void read_pendulum(const StudyTable& table, CaseSection& experiment) {
   if (experiment.equivalent_rigid_neck && experiment.direction == CaseSection::Direction::oblique)
     table.refuse(
         "equivalent_rigid_neck",
-        "its pivots turn about one axis; expected direction flexion, extension or lateral");
+        "expected direction flexion, extension or lateral, since the pivots rotate about one axis");
 }
 
 /// A case's tables, which may contain its own bodies, joints and forces.

@@ -20,7 +20,7 @@ Curve listed_curve(const StudyTable& table, const char* key, const std::vector<d
 
 CurveCorridor listed_corridor(const StudyTable& table) {
   const std::vector<double> times_s = table.quantities("times");
-  if (times_s.size() < 2) table.refuse("times", "expected two times or more");
+  if (times_s.size() < 2) table.refuse("times", "expected at least two times");
   for (std::size_t k = 1; k < times_s.size(); ++k)
     if (!(times_s[k] > times_s[k - 1])) table.refuse("times", "expected times that increase");
   if (!table.has("unit")) table.refuse("unit", "expected the unit of lower and upper");
@@ -32,7 +32,8 @@ CurveCorridor listed_corridor(const StudyTable& table) {
 CurveCorridor read_corridor(const StudyTable& table) {
   CurveCorridor corridor;
   if (table.has("table")) {
-    table.refuse_given({"times", "lower", "upper"}, "is given twice, here and by the key 'table'");
+    table.refuse_given({"times", "lower", "upper"},
+                       "is given both by this key and by the key 'table'; remove one of them");
     corridor = {read_curve_column(table, "lower"), read_curve_column(table, "upper")};
     corridor.upper = in_unit(std::move(corridor.upper), corridor.lower.unit);
   } else {

@@ -18,11 +18,12 @@ struct CurveCorridor {
 /// Keys of a corridor in several sections of a study.
 inline constexpr auto kCorridorKeys = std::to_array<Key>({
     Key::file("table", kNone,
-              "CSV file with the columns \"lower\" and \"upper\"; in place of times, lower, upper"),
-    Key::quantities("times", "s", kNone, "Times of the corridor, linear between them"),
-    Key::numbers("lower", kNone, "Least value at each time"),
-    Key::numbers("upper", kNone, "Largest value at each time"),
-    Key::text("unit", kNone, "Unit of the values, where no file names it"),
+              "CSV file with the columns \"lower\" and \"upper\", instead of the keys times, lower "
+              "and upper"),
+    Key::quantities("times", "s", kNone, "Times of the corridor's points; linear in between"),
+    Key::numbers("lower", kNone, "Lower limit at each time"),
+    Key::numbers("upper", kNone, "Upper limit at each time"),
+    Key::text("unit", kNone, "Unit of the values, if no file gives it"),
 });
 
 /// Reads a corridor. Its file, if there is one, is recorded by FilesRead.

@@ -15,8 +15,7 @@ namespace {
 void set_unit(const StudyTable& table, Curve& curve) {
   const std::string unit = table.text("unit");
   if (!unit.empty() && !curve.unit.empty())
-    table.refuse("unit",
-                 "the file names the unit '" + curve.unit + "' already; leave this key out");
+    table.refuse("unit", "the file already gives the unit '" + curve.unit + "'; remove this key");
   if (unit.empty() && curve.unit.empty())
     table.refuse("unit", "expected this key, since " + curve.label() + " names no unit");
   if (!unit.empty()) curve.unit = unit;
@@ -29,8 +28,9 @@ double sample_interval_s(const Curve& curve) {
   const Eigen::VectorXd steps = curve.time_s.tail(n - 1) - curve.time_s.head(n - 1);
   constexpr double kEven = 0.01;
   if ((steps.array() - interval_s).abs().maxCoeff() > kEven * interval_s)
-    throw InputError("a filter needs samples at equal intervals, which " + curve.label() +
-                     " has not");
+    throw InputError(
+        "expected samples at equal intervals, which the filter needs, found others in " +
+        curve.label() + " has not");
   return interval_s;
 }
 

@@ -17,19 +17,19 @@ namespace flexneck::pipeline {
 constexpr Key curve_file_key(std::string_view fallback) {
   return Key::file(
       "table", fallback,
-      "CSV file: its first line \"time [ms],angle [deg]\", or two columns without names; or a "
-      "test of ISO-MME: its folder, its .mme or a channel's file");
+      "CSV file with a header such as \"time [ms],angle [deg]\", or with two columns without a "
+      "header; or an ISO-MME test: its folder, its .mme file or the file of a channel");
 }
 
 inline constexpr auto kCurveTableKeys = std::to_array<Key>({
     Key::text("column", kNone,
-              "Column of that file, where it has more than two; code of the test's channel"),
-    Key::text("unit", kNone, "Unit of the values, where the file names none"),
+              "Column of that file, if it has more than two; channel code of an ISO-MME test"),
+    Key::text("unit", kNone, "Unit of the values, if the file gives none"),
     Key::text("filter", kNone,
-              "Channel class that the values are filtered by, unless their ISO-MME code says that "
-              "they are; none if not there",
+              "Channel frequency class with which the values are filtered, unless their ISO-MME "
+              "code says that they are filtered already (default: no filter)",
               {.choices = channel_class_names}),
-    Key::quantity("time_zero", "s", "0", "Time in the file that is the case's zero"),
+    Key::quantity("time_zero", "s", "0", "Time in the file that is time zero of the case"),
 });
 
 /// Reads the curve over the time of the case, filtered as asked, in the file's unit. Its file is

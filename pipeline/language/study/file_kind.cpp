@@ -36,9 +36,9 @@ void refuse_other_kind(const std::filesystem::path& path, FileKind expected) {
   if (std::filesystem::is_regular_file(path) && is_mesh_or_shape(path)) {
     const std::string name = path.filename().string();
     throw InputError(path.string() +
-                     ": expected a study, found a mesh or shape by the ending of its name; write a "
+                     ": expected a study, found a mesh or shape file, by its extension; write a "
                      "study, such as my.toml, with file = \"" +
-                     name + "\" in [geometry] ('flexneck keys study.geometry'), and run that");
+                     name + "\" in [geometry] ('flexneck keys study.geometry'), and run it");
   }
   if (kind_of_file(path) == expected) return;
   const bool is_model = expected == FileKind::study;

@@ -44,7 +44,8 @@ constexpr std::array<LoadKind, 5> kLoadKinds = {{
      [](const StudyTable& load) -> decltype(fe_modal::Load::kind) {
        require_one_of(load, "force", "moment");
        if (!load.has("force"))
-         load.refuse_given({"position"}, "has no effect without force, which acts there");
+         load.refuse_given({"position"},
+                           "has no effect without force, whose point of action it is");
        return fe_modal::FaceLoad{set_of(load), vector_or_zero(load, "force"),
                                  vector_or_zero(load, "moment"), position(load)};
      }},
@@ -55,8 +56,7 @@ constexpr std::array<LoadKind, 5> kLoadKinds = {{
     {"node",
      [](const StudyTable& load) -> decltype(fe_modal::Load::kind) {
        const std::optional<Vector3d> at = position(load);
-       if (at && load.has("set"))
-         load.refuse("set", "does not go with position, which names one node");
+       if (at && load.has("set")) load.refuse("set", "expected set or position, found both");
        return fe_modal::NodeLoad{at ? std::string() : set_of(load), at,
                                  quantity_vector(load, "force")};
      }},
@@ -64,7 +64,7 @@ constexpr std::array<LoadKind, 5> kLoadKinds = {{
      [](const StudyTable& load) -> decltype(fe_modal::Load::kind) {
        require_one_of(load, "translation", "rotation");
        if (!load.has("rotation"))
-         load.refuse_given({"position"}, "has no effect without rotation, whose axis it is on");
+         load.refuse_given({"position"}, "has no effect without rotation, on whose axis it lies");
        return fe_modal::SupportLoad{set_of(load), vector_or_zero(load, "translation"),
                                     vector_or_zero(load, "rotation"),
                                     vector_or_zero(load, "position")};
@@ -79,29 +79,29 @@ std::vector<std::string> load_kinds() {
 
 constexpr Key kLoadKeys[] = {
     Key::text("name", kRequired, "Name of the load"),
-    Key::text(
-        "kind", kRequired,
-        "gravity: on all mass; face: force and moment on a face set; pressure: on a face set; "
-        "node: a force on each node of a set, or on the one at position; support: fixed nodes "
-        "are moved",
-        {.choices = load_kinds}),
-    Key::text(
-        "set", kNone,
-        "Face set (face, pressure) or node set (node, support); the one of the load's name if "
-        "the key is not there"),
-    Key::quantities("acceleration", "m/s^2", kNone,
-                    "Of gravity; of supports that accelerate, less their acceleration",
+    Key::text("kind", kRequired,
+              "gravity: acts on all mass; face: force and moment on a face set; pressure: on a "
+              "face set; node: a force on each node of a set, or on the node at position; support: "
+              "displacement of fixed nodes",
+              {.choices = load_kinds}),
+    Key::text("set", kNone,
+              "Face set (kinds face and pressure) or node set (kinds node and support) (default: "
+              "the set with the load's name)"),
+    Key::quantities(
+        "acceleration", "m/s^2", kNone,
+        "Acceleration of gravity; for supports that accelerate, reduced by their acceleration",
+        {.size = 3}),
+    Key::quantities("force", "N", kNone, "Force: resultant on a face set, or force on each node",
                     {.size = 3}),
-    Key::quantities("force", "N", kNone, "Of a face, its resultant; of a node", {.size = 3}),
-    Key::quantities("moment", "N*m", kNone, "Of a face", {.size = 3}),
-    Key::quantities("position", "m", kNone,
-                    "Of a face: where its force acts, its centroid if the key is not there; of a "
-                    "node: where it is; of a support: a point of the axis that it turns about, the "
-                    "origin if the key is not there",
-                    {.size = 3}),
-    Key::quantity("pressure", "Pa", kNone, "Of pressure, which pushes where it is positive"),
-    Key::quantities("translation", "m", kNone, "Of a support", {.size = 3}),
-    Key::quantities("rotation", "rad", kNone, "Of a support, small", {.size = 3}),
+    Key::quantities("moment", "N*m", kNone, "Moment on a face set", {.size = 3}),
+    Key::quantities(
+        "position", "m", kNone,
+        "Kind face: point where the force acts (default: the centroid); kind node: position of the "
+        "node; kind support: a point on the axis of rotation (default: the origin)",
+        {.size = 3}),
+    Key::quantity("pressure", "Pa", kNone, "Pressure, positive if it pushes on the surface"),
+    Key::quantities("translation", "m", kNone, "Translation of the support", {.size = 3}),
+    Key::quantities("rotation", "rad", kNone, "Small rotation of the support", {.size = 3}),
 };
 
 }  // namespace

@@ -9,17 +9,18 @@ namespace {
 constexpr Key kMaterialKeys[] = {
     Key::quantity("youngs_modulus", "Pa", kRequired, "Young's modulus", {.range = kPositive}),
     Key::number("poissons_ratio", kRequired, "Poisson's ratio"),
-    Key::quantity("density", "kg/m^3", kRequired, "Density; a weight density is refused",
+    Key::quantity("density", "kg/m^3", kRequired, "Mass density (a weight density is refused)",
                   {.range = kPositive}),
-    Key::texts("parts", kRequired, "Parts of the mesh that are made of it"),
-    Key::text("formulation", kNone, "In place of that of [modes]", {.used_by = UsedBy::modes}),
+    Key::texts("parts", kRequired, "Parts of the mesh that consist of the material"),
+    Key::text("formulation", kNone, "Formulation of the elements (default: that of [modes])",
+              {.used_by = UsedBy::modes}),
     Key::number("static_modulus_ratio", "1",
-                "Young's modulus in static tests over that of the modes",
+                "Ratio of Young's modulus in static tests to that of the modes",
                 {.range = kPositive, .used_by = UsedBy::modes}),
 };
 
 constexpr Key kMaterialsKeys[] = {
-    Key::table("*", "A material by its name", kMaterialKeys),
+    Key::table("*", "Material with this name", kMaterialKeys),
 };
 
 }  // namespace
@@ -45,10 +46,10 @@ MaterialModels read_materials(const StudyTable& geometry, std::vector<mesher::Ma
       const auto [known, is_new] = material_of_part.emplace(part, name);
       if (!is_new) {
         const std::string& other = known->second;
-        material.refuse("parts", "the part '" + part + "' is of the material '" + other +
-                                     "' already; take it away there, e.g. parts = [] in "
-                                     "[geometry.materials." +
-                                     other + "]");
+        material.refuse("parts",
+                        "part '" + part + "' already belongs to material '" + other +
+                            "'; remove it there, e.g. with parts = [] in [geometry.materials." +
+                            other + "]");
       }
     }
     material.finish();

@@ -9,14 +9,15 @@ namespace {
 
 std::vector<std::string> figures() { return {"peak", "time of peak", "first zero crossing"}; }
 
-constexpr auto kCurveKeys =
-    joined(std::to_array<Key>({
-               Key::text("channel", kRequired, "Channel of the case's run that was measured"),
-               curve_file_key(kRequired),
-               Key::quantity("from", "s", kNone, "Time of the case from which the curve is rated"),
-               Key::quantity("to", "s", kNone, "Time of the case up to which it is"),
-           }),
-           kCurveTableKeys);
+constexpr auto kCurveKeys = joined(
+    std::to_array<Key>({
+        Key::text("channel", kRequired,
+                  "Channel of the case's run that corresponds to the measured curve"),
+        curve_file_key(kRequired),
+        Key::quantity("from", "s", kNone, "Start of the rated interval, in the time of the case"),
+        Key::quantity("to", "s", kNone, "End of the rated interval"),
+    }),
+    kCurveTableKeys);
 
 constexpr auto kMeasuredCorridorKeys =
     joined(std::to_array<Key>({Key::text("channel", kRequired, "Channel of the case's run")}),
@@ -24,15 +25,15 @@ constexpr auto kMeasuredCorridorKeys =
 
 constexpr Key kLimitKeys[] = {
     Key::text("channel", kRequired, "Channel of the case's run"),
-    Key::text("figure", kRequired, "What of the channel is limited", {.choices = figures}),
-    Key::text("low", kNone, "Least value with its unit, such as \"64 deg\""),
-    Key::text("high", kNone, "Largest value with its unit"),
+    Key::text("figure", kRequired, "Quantity of the channel that is limited", {.choices = figures}),
+    Key::text("low", kNone, "Lower limit with its unit, such as \"64 deg\""),
+    Key::text("high", kNone, "Upper limit with its unit"),
 };
 
 constexpr Key kMeasuredKeys[] = {
-    Key::tables("curve", "Measured curves", kCurveKeys),
-    Key::tables("corridor", "Where curves should run", kMeasuredCorridorKeys),
-    Key::tables("limit", "Where peaks, their times and zero crossings should lie", kLimitKeys),
+    Key::tables("curve", "Measured curves against which computed ones are rated", kCurveKeys),
+    Key::tables("corridor", "Corridors in which computed curves should lie", kMeasuredCorridorKeys),
+    Key::tables("limit", "Limits of peaks, their times and zero crossings", kLimitKeys),
 };
 
 MeasuredCurve read_measured_curve(const StudyTable& table) {
@@ -55,7 +56,8 @@ MeasuredLimit read_limit(const StudyTable& table) {
   MeasuredLimit limit{table.text("channel"),
                       static_cast<MeasuredLimit::Figure>(table.choice("figure")), table.text("low"),
                       table.text("high"), table};
-  if (limit.low.empty() && limit.high.empty()) table.refuse("low", "expected low or high, or both");
+  if (limit.low.empty() && limit.high.empty())
+    table.refuse("low", "expected low, high or both, found neither");
   table.finish();
   return limit;
 }

@@ -13,67 +13,68 @@ namespace flexneck::pipeline {
 namespace {
 
 constexpr Key kCouplingKeys[] = {
-    Key::text("name", kRequired, "Name of the coupling and its point"),
+    Key::text("name", kRequired, "Name of the coupling and of its reference point"),
     Key::text("set", kNone,
-              "Face set or node set that follows the point; the one of its name if the key is not "
-              "there"),
-    Key::quantities("position", "m", kRequired, "The point", {.size = 3}),
-    Key::text("directions", "xyz", "Directions in which the nodes follow"),
+              "Face set or node set that is coupled (default: the set with the coupling's name)"),
+    Key::quantities("position", "m", kRequired, "Reference point", {.size = 3}),
+    Key::text("directions", "xyz", "Directions in which the nodes follow the reference point"),
 };
 
 constexpr Key kSupportKeys[] = {
-    Key::text("at", kRequired, "Node set, or coupling, that is held"),
+    Key::text("at", kRequired, "Node set or coupling that is fixed"),
     Key::text("directions", kNone,
-              "Directions that are held, such as \"x\" or \"yz\"; with an axis of \"r\", \"t\" and "
-              "\"z\": radial, tangential and axial"),
-    Key::text("turns", kNone, "Of a coupling: rotations that are held, such as \"x\" or \"yz\""),
-    Key::numbers("direction", kNone, "In place of directions: a vector along which it is held",
-                 {.size = 3}),
-    Key::numbers("axis", kNone, "Axis of cylindrical directions", {.size = 3}),
-    Key::quantities("origin", "m", kNone,
-                    "A point on that axis; the origin if the key is not there", {.size = 3}),
+              "Fixed directions, such as \"x\" or \"yz\"; with an axis, letters of \"rtz\": "
+              "radial, tangential and axial"),
+    Key::text("turns", kNone, "Fixed rotations of a coupling, such as \"x\" or \"yz\""),
+    Key::numbers("direction", kNone,
+                 "Instead of directions: vector along which the motion is fixed", {.size = 3}),
+    Key::numbers("axis", kNone, "Axis of the cylindrical directions", {.size = 3}),
+    Key::quantities("origin", "m", kNone, "A point on that axis (default: the origin)",
+                    {.size = 3}),
 };
 
 constexpr Key kTermKeys[] = {
-    Key::text("at", kRequired, "Node set of one node, or coupling"),
-    Key::numbers("direction", kRequired, "Direction of the motion, times its coefficient",
+    Key::text("at", kRequired, "Node set with one node, or coupling"),
+    Key::numbers("direction", kRequired, "Direction of the motion, multiplied by its coefficient",
                  {.size = 3}),
-    Key::flag("rotation", "false", "Of a coupling: whether its rotation about it is meant, in rad"),
+    Key::flag(
+        "rotation", "false",
+        "Use the rotation of a coupling about the direction, in rad, instead of its displacement"),
 };
 
 constexpr Key kEquationKeys[] = {
     Key::text("name", kRequired, "Name of the equation"),
-    Key::tables("term", "What adds up to zero, in m; the first motion is determined by the others",
+    Key::tables("term", "Terms whose sum is zero, in m; the first term is the dependent one",
                 kTermKeys),
 };
 
 constexpr Key kSpringKeys[] = {
     Key::text("name", kRequired, "Name of the spring"),
     Key::texts("between", kRequired,
-               "Node sets of one node, or couplings: one that is sprung to ground, or two"),
-    Key::numbers(
-        "direction", kNone,
-        "Direction in which it acts; along the line between the two if the key is not there",
-        {.size = 3}),
-    Key::quantity("stiffness", "N/m", kNone, "Its stiffness", {.range = kPositive}),
+               "Node sets with one node, or couplings: one for a spring to ground, or two"),
+    Key::numbers("direction", kNone,
+                 "Direction in which the spring acts (default: the line between its two ends)",
+                 {.size = 3}),
+    Key::quantity("stiffness", "N/m", kNone, "Stiffness", {.range = kPositive}),
     Key::quantity("torsional_stiffness", "N m/rad", kNone,
-                  "In place of that: its stiffness against rotation about the direction",
+                  "Instead of stiffness: torsional stiffness about the direction",
                   {.range = kPositive}),
 };
 
-constexpr auto kMassKeys =
-    joined(std::to_array<Key>({
-               Key::text("name", kRequired, "Name of the mass"),
-               Key::text("at", kRequired, "Node set of one node, or coupling, that carries it"),
-           }),
-           kRigidBodyKeys);
+constexpr auto kMassKeys = joined(
+    std::to_array<Key>({
+        Key::text("name", kRequired, "Name of the mass"),
+        Key::text("at", kRequired, "Node set with one node, or coupling, that carries the mass"),
+    }),
+    kRigidBodyKeys);
 
 constexpr Key kKeys[] = {
-    Key::tables("coupling", "Nodes that follow a point as a rigid body", kCouplingKeys),
-    Key::tables("support", "Nodes and points that are held in some directions", kSupportKeys),
-    Key::tables("equation", "Motions that add up to zero", kEquationKeys),
-    Key::tables("spring", "Springs to ground and between points", kSpringKeys),
-    Key::tables("point_mass", "Rigid bodies at points", kMassKeys),
+    Key::tables("coupling", "Couplings: nodes that follow a reference point as a rigid body",
+                kCouplingKeys),
+    Key::tables("support", "Supports of nodes and couplings in some directions", kSupportKeys),
+    Key::tables("equation", "Linear constraint equations between motions", kEquationKeys),
+    Key::tables("spring", "Springs to ground or between nodes and couplings", kSpringKeys),
+    Key::tables("point_mass", "Point masses: rigid bodies at nodes and couplings", kMassKeys),
 };
 
 /// Directions named by letters: "xz" means x and z.
@@ -92,7 +93,7 @@ std::array<bool, 3> read_directions(const StudyTable& table, const std::string& 
 Eigen::Vector3d read_vector(const StudyTable& table, const std::string& key) {
   const std::vector<double> numbers = table.numbers(key);
   const Eigen::Vector3d vector(numbers[0], numbers[1], numbers[2]);
-  if (!(vector.norm() > 0)) table.refuse(key, "expected a direction, found a vector of zero");
+  if (!(vector.norm() > 0)) table.refuse(key, "expected a direction, found a zero vector");
   return vector;
 }
 
@@ -110,7 +111,8 @@ SupportSection read_support(const StudyTable& table) {
   SupportSection support;
   support.at = table.text("at");
   if (table.has("direction")) {
-    table.refuse_given({"directions", "axis", "origin"}, "direction gives the direction");
+    table.refuse_given({"directions", "axis", "origin"},
+                       "expected directions or direction, found both");
     support.directions = {false, false, true};
     support.axes.axes = mesher::axes_from(read_vector(table, "direction"), Eigen::Vector3d::Zero());
   } else if (table.has("directions")) {
@@ -118,13 +120,13 @@ SupportSection read_support(const StudyTable& table) {
     support.directions =
         read_directions(table, "directions", support.axes.is_cylindrical ? "rtz" : "xyz");
   } else if (!table.has("turns")) {
-    table.refuse("directions", "expected directions, a direction or turns that are held");
+    table.refuse("directions", "expected one of directions, direction and turns");
   }
   if (table.has("axis")) {
     support.axes.axes = mesher::axes_from(read_vector(table, "axis"), Eigen::Vector3d::Zero());
     if (table.has("origin")) support.axes.origin_m = quantity_vector(table, "origin");
   } else if (table.has("origin")) {
-    table.refuse("origin", "expected an axis with it");
+    table.refuse("origin", "expected an axis as well");
   }
   if (table.has("turns")) support.turns = read_directions(table, "turns", "xyz");
   table.finish();
@@ -140,9 +142,9 @@ EquationSection read_equation(const StudyTable& table) {
     term.finish();
   }
   if (equation.terms.size() < 2) {
-    table.refuse("term", "expected two terms or more, found " +
+    table.refuse("term", "expected at least two terms, found " +
                              std::to_string(equation.terms.size()) +
-                             "; one that is zero alone is a support");
+                             "; use a support to fix a single motion");
   }
   table.finish();
   return equation;
@@ -153,7 +155,8 @@ SpringSection read_spring(const StudyTable& table) {
   spring.name = table.text("name");
   spring.between = table.texts("between");
   if (spring.between.empty() || spring.between.size() > 2) {
-    table.refuse("between", "expected one or two, found " + std::to_string(spring.between.size()));
+    table.refuse("between",
+                 "expected one or two names, found " + std::to_string(spring.between.size()));
   }
   if (table.has("direction")) {
     spring.direction = read_vector(table, "direction").normalized();
@@ -162,12 +165,12 @@ SpringSection read_spring(const StudyTable& table) {
   }
   spring.is_rotation = table.has("torsional_stiffness");
   if (spring.is_rotation) {
-    table.refuse_given({"stiffness"}, "torsional_stiffness is there");
+    table.refuse_given({"stiffness"}, "expected stiffness or torsional_stiffness, found both");
     spring.stiffness = table.quantity("torsional_stiffness");
   } else if (table.has("stiffness")) {
     spring.stiffness = table.quantity("stiffness");
   } else {
-    table.refuse("stiffness", "expected stiffness or torsional_stiffness");
+    table.refuse("stiffness", "expected stiffness or torsional_stiffness, found neither");
   }
   table.finish();
   return spring;

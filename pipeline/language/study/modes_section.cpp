@@ -16,51 +16,52 @@ std::vector<std::string> prestresses() { return {"none", "loads"}; }
 
 constexpr Key kFixedKeys[] = {
     Key::text("*", kNone,
-              "Directions, such as \"x\" or \"yz\", that the node set of this name is fixed in"),
+              "Directions, such as \"x\" or \"yz\", in which the node set with this name is fixed"),
 };
 
 constexpr Key kModesKeys[] = {
     Key::count("count", "10", "Number of elastic modes", {.range = at_least(1)}),
     Key::text("formulation", "mixed_pressure",
-              "Formulation of the elements: mixed_pressure, displacement or reduced"),
+              "Element formulation: mixed_pressure, displacement or reduced"),
     Key::flag("check", "false",
-              "Whether to check that no mode is missing, and to estimate the error of the mesh",
+              "Check that no mode is missing, and estimate the discretisation error",
               {.changes_results = false}),
-    Key::text("basis", "normal", "Which vectors the basis of a body is made of",
+    Key::text("basis", "normal",
+              "Kind of basis: normal modes only, with residual vectors, Craig-Bampton, or with "
+              "inertia relief",
               {.choices = [] { return fe_modal::basis_names(); }}),
-    Key::texts("rigid_interfaces", kNone, "Interfaces whose nodes move as a rigid body"),
+    Key::texts("rigid_interfaces", kNone, "Interfaces whose nodes are rigidly coupled"),
     Key::texts("basis_interfaces", kNone,
-               "Interfaces whose static shapes join the basis; all if the key is not there"),
+               "Interfaces whose static shapes are added to the basis (default: all)"),
     Key::text("stress_stiffening", "none",
-              "Geometric stiffness of the modes under unit loads at the interfaces",
+              "Compute the geometric stiffness of the modes under unit loads at the interfaces",
               {.choices = stiffenings}),
+    Key::text("slits", "cracks",
+              "Model of open slits: cracks without contact; openings, which open and close and do "
+              "not slide while closed; or openings whose sides slide without friction",
+              {.choices = [] { return fe_modal::slit_motion_names(); }}),
     Key::text(
-        "slits", "cracks",
-        "What open slits are: cracks without contact; or openings, for a body whose slits open and "
-        "close and stick while they are shut; or openings whose sides slide without friction",
-        {.choices = [] { return fe_modal::slit_motion_names(); }}),
-    Key::text("prestress", "none",
-              "Stresses that the modes are about: none, or those of a linear static step under all "
-              "[[load]]",
-              {.choices = prestresses}),
+        "prestress", "none",
+        "Prestress of the modes: none, or the stresses of a linear static step under all [[load]]",
+        {.choices = prestresses}),
     Key::text("solver", "automatic",
-              "Package whose factor of the stiffness is solved with: automatic is cholmod in one "
-              "process and mumps on several ranks",
+              "Linear solver that factorises the stiffness: automatic means cholmod on one process "
+              "and mumps on several MPI ranks",
               {.choices = [] { return fe_modal::solver_names(); }, .changes_results = false}),
     Key::text("petsc_options", kNone,
-              "Options of PETSc and SLEPc that change how, not what, is solved, such as "
-              "\"-eps_ncv 40 -st_mat_mumps_icntl_14 50\": their names begin with -eps_ncv, "
-              "-eps_mpd, -eps_max_it, -st_ksp_, -st_pc_factor_mat_, -st_mat_mumps_ or "
-              "-st_mat_cholmod_",
+              "Solver options of PETSc and SLEPc, such as \"-eps_ncv 40 -st_mat_mumps_icntl_14 "
+              "50\"; allowed are names that begin with -eps_ncv, -eps_mpd, -eps_max_it, -st_ksp_, "
+              "-st_pc_factor_mat_, -st_mat_mumps_ or -st_mat_cholmod_",
               {.changes_results = false}),
     Key::texts("fixed", kNone, "Node sets that are fixed in all directions"),
     Key::table("fixed_directions", "Node sets that are fixed in some directions", kFixedKeys),
     Key::flag("deck_supports", "true",
-              "Whether supports hold that the structure's file gives, such as *BOUNDARY and SPC1"),
-    Key::texts("rigid_parts", kNone, "Parts whose motion gives the modes their names"),
+              "Apply the supports in the geometry file, such as *BOUNDARY and SPC1"),
+    Key::texts("rigid_parts", kNone, "Rigid parts whose motion determines the names of the modes"),
     Key::text("attached_body", kNone,
-              "Rigid body attached to an interface for the loaded frequencies"),
-    Key::text("attached_to", kNone, "That interface; the first if the key is not there"),
+              "Rigid body that is attached to an interface to compute system frequencies"),
+    Key::text("attached_to", kNone,
+              "Interface to which that body is attached (default: the first)"),
 };
 
 /// Reads directions in which sets are fixed, such as left = "x", bottom = "yz".

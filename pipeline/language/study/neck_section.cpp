@@ -18,36 +18,39 @@ std::vector<std::string> slit_edges() { return {"ring", "chord"}; }
 
 /// Keys of [geometry] besides the dimensions.
 constexpr auto kGeometryKeys = std::to_array<Key>({
-    Key::texts(
-        "slit_parts", kNone,
-        "Of the neck: rubber sections that are slit; rubber_2 and rubber_3 if it is not there"),
-    Key::text("slit_edge", "ring", "Of the neck: shape of the slits' inner edge",
+    Key::texts("slit_parts", kNone,
+               "Rubber sections of the neck that have slits (default: rubber_2 and rubber_3)"),
+    Key::text("slit_edge", "ring", "Shape of the inner edge of the neck's slits",
               {.choices = slit_edges}),
     Key::number("slit_depth", kNone,
-                "Of the neck: share of the rubber between rim and hole that is cut"),
-    Key::texts("fitted_to", kNone, "Published figures that the neck's dimensions were fitted to"),
-    Key::text(
-        "fitted_values", kNone,
-        "Hash of the values that this fit was made with, as flexneck fit writes it: with other "
-        "ones fitted_to no longer holds"),
+                "Depth of the neck's slits, as a fraction of the rubber between rim and hole"),
+    Key::texts("fitted_to", kNone, "Published figures to which the neck's dimensions were fitted"),
+    Key::text("fitted_values", kNone,
+              "Hash of the fitted values, written by 'flexneck fit'; if the values change, "
+              "fitted_to no longer applies"),
 });
 
 constexpr Key kMeshKeys[] = {
-    Key::text("preset", kNone, "Divisions of the neck: default or paper"),
-    Key::count("quadrant", kNone, "Elements round a quarter of the circumference",
+    Key::text("preset", kNone, "Preset of the neck's mesh divisions: default or paper"),
+    Key::count("quadrant", kNone, "Elements around a quarter of the circumference",
                {.range = at_least(1)}),
-    Key::count("inner_ring", kNone, "Elements from the hole to the rubber's rim",
+    Key::count("inner_ring", kNone,
+               "Elements in radial direction from the hole to the rim of the rubber",
                {.range = at_least(1)}),
-    Key::count("outer_ring", kNone, "Elements from the rubber's rim to the plate's",
+    Key::count("outer_ring", kNone,
+               "Elements in radial direction from the rim of the rubber to the rim of the plates",
                {.range = at_least(1)}),
-    Key::count("rubber_layers", kNone, "Elements through one rubber section",
+    Key::count("rubber_layers", kNone, "Elements through the height of a rubber section",
                {.range = at_least(1)}),
-    Key::count("plate_layers", kNone, "Elements through an intermediate plate",
+    Key::count("plate_layers", kNone, "Elements through the thickness of an intermediate plate",
                {.range = at_least(1)}),
-    Key::count("end_plate_layers", kNone, "Elements through the base and the top plate",
+    Key::count("end_plate_layers", kNone,
+               "Elements through the thickness of the base plate and of the top plate",
                {.range = at_least(1)}),
-    Key::number("ring_grading", kNone, "Ratio of neighbouring elements away from the rubber's rim"),
-    Key::number("rubber_grading", kNone, "Ratio of neighbouring layers away from the bonds"),
+    Key::number("ring_grading", kNone,
+                "Size ratio of neighbouring elements, away from the rim of the rubber"),
+    Key::number("rubber_grading", kNone,
+                "Thickness ratio of neighbouring rubber layers, away from the bonded faces"),
     Key::count("refine", kNone, "Times that all divisions are doubled", {.range = at_least(0)}),
 };
 
@@ -65,8 +68,8 @@ geometry::NeckSlits read_slits(const StudyTable& table) {
   if (table.has("slit_parts")) slits.parts = table.texts("slit_parts");
   if (table.choice("slit_edge") == 1) {
     table.refuse("slit_edge",
-                 "the neck's O-grid has rings and spokes but no straight chord that a slit could "
-                 "end on; take \"ring\", or a script of your own that draws one");
+                 "the O-grid mesh of the neck has no straight line on which a slit could end; use "
+                 "\"ring\", or a gmsh script of your own that draws a chord");
   }
   if (table.has("slit_depth")) slits.depth = table.number("slit_depth");
   return slits;
@@ -156,7 +159,7 @@ std::span<const Key> neck_geometry_keys() {
   static const std::vector<std::string> meanings = [] {
     std::vector<std::string> all;
     for (const geometry::NeckDimension& dimension : geometry::neck_dimensions())
-      all.push_back("Of the neck, which needs it: " + std::string(dimension.meaning));
+      all.push_back("Required for the built-in neck geometry: " + std::string(dimension.meaning));
     return all;
   }();
   static const std::vector<Key> keys = [] {
@@ -205,9 +208,8 @@ void check_neck(const StudyTable& root, const NeckSection& neck) {
   geometry::check(neck.slits, neck.divisions);
   if (root.table("modes").has("fixed")) return;
   throw InputError(
-      "modes.fixed: expected the node sets that the neck stands on, [\"bolts\"] for its bolts or "
-      "[] "
-      "for a free neck, found none");
+      "modes.fixed: expected the node sets that are fixed, such as [\"bolts\"] for the neck's "
+      "bolts or [] for a free neck, found no such key");
 }
 
 std::string neck_values_hash(const std::vector<Parameter>& parameters) {

@@ -7,14 +7,14 @@ namespace flexneck::pipeline {
 
 namespace {
 
-constexpr auto kPulseKeys = joined(
-    std::to_array<Key>({
-        Key::text("name", kRequired, "Name of the pulse"),
-        Key::quantities("times", "s", kNone, "Times of the decelerations, from the arm's impact"),
-        Key::quantities("deceleration", "m/s^2", kNone,
-                        "Deceleration at each time; linear between them, zero outside"),
-    }),
-    kCsvKeys);
+constexpr auto kPulseKeys =
+    joined(std::to_array<Key>({
+               Key::text("name", kRequired, "Name of the pulse"),
+               Key::quantities("times", "s", kNone, "Times from the impact of the arm"),
+               Key::quantities("deceleration", "m/s^2", kNone,
+                               "Deceleration at each time; linear in between, zero outside"),
+           }),
+           kCsvKeys);
 
 }  // namespace
 
@@ -30,7 +30,7 @@ PulseSection read_pulse(const StudyTable& table) {
     return multibody::TimeTable(columns.x, columns.y, multibody::TimeTable::Outside::zero);
   });
   if (columns.x.size() < 2 || columns.x.front() < 0)
-    table.refuse(key, "expected two times or more, none before 0, when the arm is struck");
+    table.refuse(key, "expected at least two times, none before 0, the time of the impact");
   pulse.times_s = std::move(columns.x);
   pulse.deceleration_m_s2 = std::move(columns.y);
   table.finish();

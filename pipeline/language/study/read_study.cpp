@@ -21,7 +21,8 @@ MeshOrders read_mesh_orders(const StudyTable& mesh) {
   if (mesh.has("partitions")) {
     for (const double count : mesh.numbers("partitions")) {
       if (!(count >= 1 && count <= 4096 && count == std::floor(count))) {
-        mesh.refuse("partitions", "expected numbers of processes, such as [2, 4]");
+        mesh.refuse("partitions",
+                    "expected whole numbers of processes from 1 to 4096, such as [2, 4]");
       }
       orders.partitions.push_back(static_cast<int>(count));
     }
@@ -67,14 +68,15 @@ void check_sections(const StudyTable& root, const Study& study) {
 /// Checks the loads, which act on a mesh, and the prestress, which requires loads.
 void check_loads(const StudyTable& root, const Study& study) {
   if (!study.loads.empty() && !study.structure)
-    root.refuse("load", "acts on a mesh, but there is no [geometry]");
+    root.refuse("load", "has no effect without a mesh; add [geometry], or remove the loads");
   if (study.modes.prestress && study.loads.empty())
-    root.table("modes").refuse("prestress", "there is no [[load]]");
+    root.table("modes").refuse("prestress",
+                               "expected a [[load]] that causes the prestress, found none");
 }
 
 /// Refuses keys that have no effect with matrices, which have neither elements nor sets.
 void refuse_keys_of_meshes(const StudyTable& root) {
-  const std::string why = "has no effect with [matrices], which have no mesh";
+  const std::string why = "has no effect with [matrices], which contain no mesh";
   root.refuse_given({"substructures"}, why);
   const StudyTable modes = root.table("modes");
   for (const std::string& key : modes.keys())
@@ -154,7 +156,7 @@ const multibody::RigidBody& Study::rigid_body(const std::string& name) const {
   const multibody::Body& body = bodies[find_name(names_of(bodies), name, "body")];
   const auto* const rigid = std::get_if<multibody::RigidBody>(&body.kind);
   if (rigid == nullptr)
-    throw InputError("expected a rigid body, found '" + name + "', which is not");
+    throw InputError("expected a rigid body, found '" + name + "', which is not rigid");
   return *rigid;
 }
 

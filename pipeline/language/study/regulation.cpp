@@ -24,62 +24,72 @@ std::vector<std::string> velocity_units() { return {"m/s", "ft/s"}; }
 constexpr KeyDetails kPair = {.size = 2};
 
 constexpr Key kRotationKeys[] = {
-    Key::quantities("peak", "rad", kRequired, "Of the direction of flight, from and to", kPair),
-    Key::quantities("time_of_peak", "s", kNone, "From and to", kPair),
-    Key::quantities("first_zero_crossing", "s", kNone, "In the rebound, from and to", kPair),
+    Key::quantities("peak", "rad", kRequired,
+                    "Limits of the peak rotation of the plane D in the direction of flight", kPair),
+    Key::quantities("time_of_peak", "s", kNone, "Limits of the time of the peak", kPair),
+    Key::quantities("first_zero_crossing", "s", kNone,
+                    "Limits of the time of the first zero crossing in the rebound", kPair),
 };
 
 constexpr Key kMomentKeys[] = {
-    Key::quantities("peak", "N*m", kRequired, "With the sign of SAE J211, from and to", kPair),
+    Key::quantities("peak", "N*m", kRequired,
+                    "Limits of the peak moment, with the sign of SAE J211", kPair),
     Key::flag("while_rotation_inside", "false",
-              "Whether the peak is that of the time when the rotation is within its own limits"),
-    Key::quantities("time_of_peak", "s", kNone, "From and to", kPair),
-    Key::quantity("decay_to", "N*m", "0", "Moment that the largest one decays to"),
-    Key::quantities("time_of_decay", "s", kRequired, "When it first does, from and to", kPair),
+              "Evaluate the peak only while the rotation is within its own limits"),
+    Key::quantities("time_of_peak", "s", kNone, "Limits of the time of the peak", kPair),
+    Key::quantity("decay_to", "N*m", "0", "Moment to which the peak decays"),
+    Key::quantities("time_of_decay", "s", kRequired,
+                    "Limits of the time at which the moment first reaches decay_to", kPair),
 };
 
 constexpr Key kPulseKeys[] = {
-    Key::text("kind", kRequired, "What the pulse is judged by", {.choices = pulse_kinds}),
-    Key::quantities("times", "s", kRequired, "Times that the limits are given at"),
-    Key::quantities("low", "m/s^2 | m/s", kRequired, "The least at each time"),
-    Key::quantities("high", "m/s^2 | m/s", kRequired, "The most at each time"),
+    Key::text("kind", kRequired, "Quantity by which the pulse is evaluated",
+              {.choices = pulse_kinds}),
+    Key::quantities("times", "s", kRequired, "Times at which the limits are given"),
+    Key::quantities("low", "m/s^2 | m/s", kRequired, "Lower limit at each time"),
+    Key::quantities("high", "m/s^2 | m/s", kRequired, "Upper limit at each time"),
     Key::quantity("highest_after", "m/s^2", kRequired,
-                  "Of the kind deceleration: the most after the last of the times"),
+                  "Kind deceleration: upper limit after the last of the times"),
     Key::quantity("decay_to", "m/s^2", kRequired,
-                  "Likewise: level that the decaying pulse crosses"),
-    Key::quantities("time_of_decay", "s", kRequired, "Likewise: when it first does, from and to",
+                  "Kind deceleration: level that the decaying pulse crosses"),
+    Key::quantities("time_of_decay", "s", kRequired,
+                    "Kind deceleration: limits of the time at which it first crosses that level",
                     kPair),
 };
 
 constexpr Key kRegulationKeys[] = {
-    Key::text("name", kRequired, "Name of the test, behind that of the regulation"),
-    Key::text("direction", kRequired, "Direction of the bending", {.choices = directions}),
-    Key::quantities("impact_velocity", "m/s", kRequired, "At the accelerometer, from and to",
-                    kPair),
-    Key::table("rotation", "Of the head's plane D against the pendulum", kRotationKeys),
-    Key::table("moment", "About the occipital condyles", kMomentKeys),
-    Key::table("pulse", "Of the pendulum", kPulseKeys),
+    Key::text("name", kRequired, "Name of the test, which follows the name of the regulation"),
+    Key::text("direction", kRequired, "Direction of bending", {.choices = directions}),
+    Key::quantities("impact_velocity", "m/s", kRequired,
+                    "Limits of the impact velocity at the accelerometer", kPair),
+    Key::table("rotation", "Limits of the rotation of the head's plane D relative to the pendulum",
+               kRotationKeys),
+    Key::table("moment", "Limits of the moment about the occipital condyles", kMomentKeys),
+    Key::table("pulse", "Limits of the pulse of the pendulum", kPulseKeys),
 };
 
 constexpr Key kKeys[] = {
     Key::text("regulation", kRequired, "Name of the regulation"),
-    Key::text("dummy", kRequired, "Dummy that it is for"),
-    Key::text("source", kRequired, "Where the figures are from"),
-    Key::flag("zeroed", "false", "Whether rotation and moment are zero at time zero by rule"),
+    Key::text("dummy", kRequired, "Dummy that the regulation applies to"),
+    Key::text("source", kRequired, "Source of the limits"),
+    Key::flag("zeroed", "false", "Rotation and moment are set to zero at time zero"),
     Key::quantity("moment_arm", "m", kRequired, "Arm of M = My - arm Fx", {.range = at_least(0)}),
-    Key::text("force_filter", kRequired, "Channel class of Fx", {.choices = channel_class_names}),
-    Key::text("moment_filter", kRequired, "Channel class of My", {.choices = channel_class_names}),
-    Key::text("pendulum_filter", kRequired, "Channel class of the pendulum's acceleration",
+    Key::text("force_filter", kRequired, "Channel frequency class of Fx",
               {.choices = channel_class_names}),
-    Key::text("moment_unit", "N*m", "Unit that moments are shown in", {.choices = moment_units}),
-    Key::text("velocity_unit", "m/s", "Unit that velocities are shown in",
+    Key::text("moment_filter", kRequired, "Channel frequency class of My",
+              {.choices = channel_class_names}),
+    Key::text("pendulum_filter", kRequired,
+              "Channel frequency class of the pendulum's acceleration",
+              {.choices = channel_class_names}),
+    Key::text("moment_unit", "N*m", "Unit in which moments are shown", {.choices = moment_units}),
+    Key::text("velocity_unit", "m/s", "Unit in which velocities are shown",
               {.choices = velocity_units}),
     Key::tables("test", "Tests of the regulation", kRegulationKeys),
 };
 
 Limits read_limits(const StudyTable& table, const char* key) {
   const std::vector<double> pair = table.quantities(key);
-  if (!(pair[0] < pair[1])) table.refuse(key, "expected the lower limit first, then a higher one");
+  if (!(pair[0] < pair[1])) table.refuse(key, "expected a lower limit, then a higher upper limit");
   return {pair[0], pair[1]};
 }
 
@@ -91,7 +101,7 @@ std::optional<Limits> read_limits_if_there(const StudyTable& table, const char* 
 RotationRule read_rotation(const StudyTable& table) {
   RotationRule rule;
   rule.peak_rad = read_limits(table, "peak");
-  if (rule.peak_rad.low <= 0) table.refuse("peak", "expected angles above zero");
+  if (rule.peak_rad.low <= 0) table.refuse("peak", "expected positive angles");
   rule.time_of_peak_s = read_limits_if_there(table, "time_of_peak");
   rule.first_zero_crossing_s = read_limits_if_there(table, "first_zero_crossing");
   table.finish();
@@ -122,7 +132,8 @@ std::vector<Limits> read_corridor(const StudyTable& table, std::size_t size,
   const std::vector<double> high = table.quantities("high", size, unit);
   std::vector<Limits> corridor;
   for (std::size_t k = 0; k < size; ++k) {
-    if (!(low[k] < high[k])) table.refuse("high", "expected more than 'low' at each time");
+    if (!(low[k] < high[k]))
+      table.refuse("high", "expected values above those of 'low' at each time");
     corridor.push_back({low[k], high[k]});
   }
   return corridor;
@@ -135,7 +146,7 @@ std::variant<DecelerationPulse, VelocityPulse> read_test_pulse(const StudyTable&
                            return a >= b;
                          }) == times_s.end();
   if (times_s.empty() || !increases || times_s.front() < 0)
-    table.refuse("times", "expected one or more times from 0 on, each above the one before");
+    table.refuse("times", "expected at least one time, none below 0, in increasing order");
   if (!is_deceleration) {
     VelocityPulse rule{times_s, read_corridor(table, times_s.size(), "m/s")};
     table.finish();

@@ -35,59 +35,64 @@ std::vector<std::string> node_orders() { return {"none", "nested-dissection"}; }
 std::vector<std::string> elements() { return {"hex27", "hex20", "hex8", "tet10"}; }
 
 constexpr Key kConstantKeys[] = {
-    Key::number_or_quantity("*", "m", kNone, "A constant of the script, a number or a length"),
+    Key::number_or_quantity("*", "m", kNone,
+                            "Value of the script's constant of this name: a number or a length"),
 };
 
 constexpr Key kSetKeys[] = {
     Key::text("name", kRequired, "Name of the face set and node set"),
-    Key::quantities("from", "m", kRequired, "Corner of the box with the lowest coordinates",
+    Key::quantities("from", "m", kRequired, "Corner of the box with the smallest coordinates",
                     {.size = 3}),
-    Key::quantities("to", "m", kRequired, "Opposite corner", {.size = 3}),
+    Key::quantities("to", "m", kRequired, "Corner of the box with the largest coordinates",
+                    {.size = 3}),
 };
 
 /// Keys of [geometry] besides those of the neck.
 constexpr auto kKeys = std::to_array<Key>({
-    Key::file("script", kNone, "gmsh script that draws and meshes the structure"),
-    Key::file("file", kNone, "In place of a script: a mesh or a shape to be meshed"),
-    Key::text("unit", "m", "Length that the number 1 stands for in a script or a file"),
-    Key::text("force_unit", "N", "Of an .inp or .bdf: force that the number 1 stands for"),
-    Key::table("constants", "Values of constants of the script", kConstantKeys),
-    Key::text("slits", "none", "Slits: not there, cut but tied shut, or open",
-              {.choices = slit_states}),
-    Key::texts("slit_faces", kNone, "Of a script: physical surfaces that the slits lie on"),
+    Key::file("script", kNone, "gmsh script that defines and meshes the structure"),
+    Key::file("file", kNone,
+              "Instead of a script: a file with a mesh, or with a shape to be meshed"),
+    Key::text("unit", "m", "Unit of length of the script or the file"),
+    Key::text("force_unit", "N", "Unit of force of an .inp or .bdf file"),
+    Key::table("constants", "Values for constants of the script", kConstantKeys),
+    Key::text("slits", "none", "Slits: none, cut but tied shut, or open", {.choices = slit_states}),
+    Key::texts("slit_faces", kNone, "Physical surfaces of the script on which the slits lie"),
     Key::text("coincident_nodes", "refuse",
-              "Nodes of a file in the same place: a mistake, or meant, as at a crack",
+              "Coincident nodes of a file: refuse the file, or keep them, as for a crack",
               {.choices = coincident_nodes}),
-    Key::texts("leave_out", kNone,
-               "Of a .bdf: cards that change the structure and are not supported, to do without"),
-    Key::tables("set", "A face set and node set of what lies in a box", kSetKeys),
+    Key::texts(
+        "leave_out", kNone,
+        "Unsupported cards of a .bdf file to ignore, although the structure changes without them"),
+    Key::tables("set", "Face set and node set of the surface inside a box", kSetKeys),
 });
 
 constexpr auto kMeshKeys = std::to_array<Key>({
-    Key::numbers("partitions", kNone, "Numbers of processes to share the elements out to",
+    Key::numbers("partitions", kNone,
+                 "Numbers of processes for which a partition of the elements is stored",
                  {.changes_results = false}),
-    Key::text("node_order", "none", "Order of elimination stored with the mesh",
+    Key::text("node_order", "none",
+              "Elimination ordering of the nodes that is stored with the mesh",
               {.choices = node_orders, .changes_results = false}),
-    Key::text("element", "hex27", "Kind of element that a script's mesh has",
-              {.choices = elements}),
-    Key::quantity("size", "m", "0",
-                  "Of STEP and BREP shapes: size of the elements; 0 is gmsh's choice",
+    Key::text("element", "hex27", "Element type of the mesh of a script", {.choices = elements}),
+    Key::quantity("size", "m", "0", "Element size for STEP and BREP shapes; 0: chosen by gmsh",
                   {.range = at_least(0)}),
 });
 
 constexpr Key kMatricesKeys[] = {
-    Key::file("stiffness", kRequired, "Stiffness matrix in N/m, without directions that are fixed"),
-    Key::file("mass", kRequired, "Mass matrix in kg, likewise"),
-    Key::file("nodes", kRequired, "Positions of the nodes in m, a row each"),
+    Key::file("stiffness", kRequired,
+              "File with the stiffness matrix in N/m, without fixed degrees of freedom"),
+    Key::file("mass", kRequired,
+              "File with the mass matrix in kg, without fixed degrees of freedom"),
+    Key::file("nodes", kRequired, "File with the positions of the nodes in m, one row per node"),
 };
 
 constexpr Key kInterfaceKeys[] = {
     Key::text("name", kRequired, "Name of the interface"),
-    Key::text(
-        "set", kNone,
-        "Face set, or fixed node set, that it stands for; the one of its name if the key is not "
-        "there"),
-    Key::quantities("position", "m", kRequired, "Point that other bodies attach to", {.size = 3}),
+    Key::text("set", kNone,
+              "Face set, or fixed node set, of the interface (default: the set with the "
+              "interface's name)"),
+    Key::quantities("position", "m", kRequired, "Point at which other bodies are attached",
+                    {.size = 3}),
 };
 
 /// Reads the constants of a script: pure numbers, or lengths, which are converted to its own unit.
@@ -119,7 +124,7 @@ std::vector<mesher::BoxSet> read_box_sets(const StudyTable& geometry) {
     boxes.push_back({table.text("name"), corner(table, "from"), corner(table, "to")});
     for (std::size_t d = 0; d < 3; ++d) {
       if (boxes.back().low_m[d] > boxes.back().high_m[d]) {
-        table.refuse("to", "expected no coordinate below that of from");
+        table.refuse("to", "expected coordinates that are not below those of from");
       }
     }
     table.finish();
@@ -143,8 +148,9 @@ void read_slit_faces(const StudyTable& geometry, mesher::ScriptMeshOptions& opti
     return;
   }
   if (faces.empty()) {
-    geometry.refuse("slit_faces",
-                    "slits need the script's physical surfaces that they lie on, found none");
+    geometry.refuse(
+        "slit_faces",
+        "expected the physical surfaces of the script on which the slits lie, found none");
   }
   options.slits = faces;
   options.slits_tied = state == geometry::SlitState::closed;
@@ -179,14 +185,15 @@ mesher::ImportOptions read_file(const StudyTable& geometry, const StudyTable& me
     geometry.refuse("file", error.what());
   }
   if (format == ForeignFormat::step && geometry.has("unit")) {
-    geometry.refuse("unit", "a STEP file says its unit itself; take this key away");
+    geometry.refuse("unit", "a STEP file contains its unit; remove this key");
   }
   options.length_unit_m = unit(geometry, "unit", "m");
   if (format == ForeignFormat::inp || format == ForeignFormat::bdf)
     options.force_unit_N = unit(geometry, "force_unit", "N");
   if (format == ForeignFormat::step || format == ForeignFormat::brep) {
     options.element_size_m = mesh.quantity("size");
-    geometry.refuse_given({"coincident_nodes"}, "has no effect on a shape, which has no nodes");
+    geometry.refuse_given({"coincident_nodes"},
+                          "has no effect on a shape file, which has no nodes");
   }
   options.keeps_doubles = geometry.choice("coincident_nodes") == 1;
   options.leave_out = geometry.texts("leave_out");

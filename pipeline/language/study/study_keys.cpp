@@ -17,15 +17,15 @@ namespace {
 constexpr auto kSolverKeys = joined(
     std::to_array<Key>({
         Key::quantities("gravity", "m/s^2", kNone,
-                        "Gravity of pendulum cases, in the world; 1 gn down if it is not there",
+                        "Gravity of pendulum cases, in the world frame (default: 1 gn downwards)",
                         {.size = 3}),
     }),
     kStepKeys);
 
 constexpr Key kOutputKeys[] = {
-    Key::quantity("interval", "s", "0.001", "Time between outputs", {.range = kPositive}),
+    Key::quantity("interval", "s", "0.001", "Output interval", {.range = kPositive}),
     Key::file("verification", kNone,
-              "Table of published figures that results are compared with; \"\" for none"),
+              "File with the published figures that results are compared with; \"\" for none"),
 };
 
 }  // namespace
@@ -53,43 +53,48 @@ std::vector<Key> all_study_keys() {
   std::vector<Key> keys = {
       variables_key(),
       assembly_key(),
-      Key::table("geometry", "What is meshed", geometry_keys(), UsedBy::mesh),
-      Key::table("mesh", "How it is meshed", mesh_keys(), UsedBy::mesh),
-      Key::table("matrices", "Matrices of another program, in place of a mesh", matrices_keys(),
-                 UsedBy::modes),
+      Key::table("geometry", "Geometry of the structure", geometry_keys(), UsedBy::mesh),
+      Key::table("mesh", "Mesh of the structure", mesh_keys(), UsedBy::mesh),
+      Key::table(
+          "matrices",
+          "Stiffness and mass matrices from another program, instead of a geometry and a mesh",
+          matrices_keys(), UsedBy::modes),
       Key::table("modes", "Modes of the structure", modes_keys(), UsedBy::modes),
-      Key::table("substructures", "Bodies that the structure is cut into", substructures_keys(),
-                 UsedBy::modes),
-      Key::tables("interface", "Where other bodies attach to a structure", interface_keys(),
-                  UsedBy::modes),
-      Key::tables("load", "Loads of a linear static step: 'flexneck stress', modes.prestress",
+      Key::table("substructures", "Substructures into which the structure is divided",
+                 substructures_keys(), UsedBy::modes),
+      Key::tables("interface", "Interfaces at which other bodies are attached to the structure",
+                  interface_keys(), UsedBy::modes),
+      Key::tables("load",
+                  "Loads of a linear static step, for 'flexneck stress' and modes.prestress",
                   load_keys(), UsedBy::modes),
   };
   const std::vector<Key> shared = shared_model_keys();
   keys.insert(keys.end(), shared.begin(), shared.end());
   const std::vector<Key> experiments = {
-      Key::tables("pulse", "Decelerations of the pendulum's arm", pulse_keys(),
+      Key::tables("pulse", "Deceleration pulses of the pendulum arm", pulse_keys(),
                   UsedBy::named_experiments),
-      Key::table("pendulum", "Keys that all [[case]] of the pendulum share", case_keys(),
+      Key::table("pendulum", "Values shared by all [[case]] of the pendulum", case_keys(),
                  UsedBy::named_experiments),
-      Key::table("static", "Keys that all [[case]] of the static tester share", case_keys(),
+      Key::table("static", "Values shared by all [[case]] of the static neck tester", case_keys(),
                  UsedBy::named_experiments),
       Key::tables("case", "Experiments", case_keys(), UsedBy::named_experiments),
       Key::texts("cases", kNone,
-                 "Names of the cases that are run, which may end in *; a variant brings the case "
-                 "that it is made of; all if the key is not there"),
-      Key::tables("variant", "Experiments made of others, with keys of their own", variant_keys(),
+                 "Names of the cases to run, which may end in * (default: all); the case that a "
+                 "variant is based on is run with it"),
+      Key::tables("variant", "Variants of cases, with some keys changed", variant_keys(),
                   UsedBy::named_experiments),
-      Key::table("dummy", "Whose head and neck the bodies are", dummy_keys(),
+      Key::table("dummy", "Dummy whose head and neck are modelled", dummy_keys(),
                  UsedBy::named_experiments),
-      Key::tables("test", "Cases that are judged by tests of regulations", test_keys(),
-                  UsedBy::named_experiments),
-      Key::table("solver", "Integration of the experiments", kSolverKeys, UsedBy::all_experiments),
-      Key::table("output", "What is written", kOutputKeys, UsedBy::all_experiments),
-      Key::table("sweep", "Many values of some keys, and what becomes of them: 'flexneck sweep'",
-                 sweep_keys(), UsedBy::named_experiments),
-      Key::table("fit", "Free values of some keys that bring results to targets: 'flexneck fit'",
-                 fit_keys(), UsedBy::named_experiments),
+      Key::tables("test",
+                  "Tests that cases are evaluated by: limits of a regulation, or measured data",
+                  test_keys(), UsedBy::named_experiments),
+      Key::table("solver", "Time integration of the experiments", kSolverKeys,
+                 UsedBy::all_experiments),
+      Key::table("output", "Output of results", kOutputKeys, UsedBy::all_experiments),
+      Key::table("sweep", "Parameter sweep, for 'flexneck sweep'", sweep_keys(),
+                 UsedBy::named_experiments),
+      Key::table("fit", "Fit of parameters to targets, for 'flexneck fit'", fit_keys(),
+                 UsedBy::named_experiments),
   };
   keys.insert(keys.end(), experiments.begin(), experiments.end());
   return keys;

@@ -9,24 +9,25 @@ namespace flexneck::pipeline {
 namespace {
 
 constexpr Key kPieceKeys[] = {
-    Key::text("name", kRequired, "Name of the piece, and of its file of modes"),
-    Key::texts("parts", kNone, "Parts of the mesh that make the piece"),
+    Key::text("name", kRequired, "Name of the substructure and of its modes file"),
+    Key::texts("parts", kNone, "Parts of the mesh that form the substructure"),
     Key::quantity("up_to", "m", kNone,
-                  "In place of parts: the plane, across the normal, that the piece ends at; the "
-                  "last has none"),
+                  "Instead of parts: coordinate along the normal of the plane at which the "
+                  "substructure ends; the last one has none"),
 };
 
 constexpr Key kKeys[] = {
-    Key::tables("piece", "A body that the structure is cut into", kPieceKeys),
-    Key::count("modes", "2", "Modes of each piece with its ends fixed, besides static shapes",
-               {.range = at_least(0)}),
+    Key::tables("piece", "Substructures, in order", kPieceKeys),
+    Key::count(
+        "modes", "2",
+        "Number of modes of each substructure with fixed interfaces, in addition to static shapes",
+        {.range = at_least(0)}),
     Key::text(
         "slits", "cracks",
-        "What open slits are: cracks without contact; or openings, for sections whose slits open "
-        "and close and stick while they are shut; or openings whose sides slide without "
-        "friction, open or shut",
+        "Model of open slits: cracks without contact; openings, which open and close and do not "
+        "slide while closed; or openings whose sides slide without friction, open or closed",
         {.choices = [] { return fe_modal::slit_motion_names(); }}),
-    Key::numbers("normal", kNone, "Direction across the planes; z if it is not there", {.size = 3}),
+    Key::numbers("normal", kNone, "Normal of the cutting planes (default: z)", {.size = 3}),
 };
 
 PieceSection read_piece(const StudyTable& table) {
@@ -47,14 +48,16 @@ void check_pieces(const StudyTable& table, const SubstructuresSection& section) 
     const PieceSection& piece = section.pieces[p];
     const bool is_last = p + 1 == section.pieces.size();
     if (!section.by_planes && piece.parts.empty()) {
-      table.refuse("piece", "expected parts in '" + piece.name + "', as in the pieces before");
+      table.refuse("piece", "expected parts for substructure '" + piece.name +
+                                "', as for the ones before it");
     }
     if (section.by_planes && (is_last ? piece.up_to_m.has_value() || !piece.parts.empty()
                                       : !piece.up_to_m.has_value())) {
-      table.refuse("piece",
-                   is_last ? "expected neither parts nor up_to in the last piece '" + piece.name +
-                                 "', which has the rest"
-                           : "expected up_to in '" + piece.name + "', as in the pieces before");
+      table.refuse("piece", is_last
+                                ? "expected neither parts nor up_to for the last substructure '" +
+                                      piece.name + "', which consists of the rest"
+                                : "expected up_to for substructure '" + piece.name +
+                                      "', as for the ones before it");
     }
   }
 }
@@ -76,12 +79,12 @@ SubstructuresSection read_substructures(const StudyTable& table) {
   section.slit_motions = static_cast<fe_modal::SlitMotions>(table.choice("slits"));
   if (table.has("normal")) section.normal = unit_vector(table, "normal");
   if (section.pieces.size() == 1) {
-    table.refuse("piece", "expected two pieces at least, found one");
+    table.refuse("piece", "expected at least two substructures, found one");
   }
   section.by_planes = !section.pieces.empty() && section.pieces.front().up_to_m.has_value();
   check_pieces(table, section);
   if (!section.by_planes)
-    table.refuse_given({"normal"}, "has no effect on pieces that are made of parts");
+    table.refuse_given({"normal"}, "has no effect on substructures that are given by parts");
   table.finish();
   return section;
 }

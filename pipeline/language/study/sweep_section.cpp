@@ -20,43 +20,47 @@ std::vector<std::string> kind_names() {
 }
 
 constexpr Key kParameterKeys[] = {
-    Key::text("name", kNone, "Name of its column; the key if it is not there"),
-    Key::text("key", kRequired,
-              "Dotted key of the study that is varied, such as body.neck.damping_ratio or "
-              "variables.x"),
-    Key::text("unit", kNone, "Unit of the numbers of this parameter; none for pure numbers"),
-    Key::numbers("values", kNone, "Numbers that it takes on"),
-    Key::texts("texts", kNone, "In place of numbers, values as --set takes them"),
-    Key::number("from", kNone, "Lowest value: of equal steps or of a distribution"),
-    Key::number("to", kNone, "Highest value"),
-    Key::count("steps", kNone, "Values from the lowest to the highest, equally spaced",
+    Key::text("name", kNone, "Name of the parameter's column (default: the key)"),
+    Key::text(
+        "key", kRequired,
+        "Dotted key of the study that is varied, such as body.neck.damping_ratio or variables.x"),
+    Key::text("unit", kNone, "Unit of the parameter's values (none for pure numbers)"),
+    Key::numbers("values", kNone, "Values of the parameter"),
+    Key::texts("texts", kNone, "Instead of values: texts, written as for --set"),
+    Key::number("from", kNone, "Lowest value, for equal steps or a distribution"),
+    Key::number("to", kNone, "Highest value, for equal steps or a distribution"),
+    Key::count("steps", kNone, "Number of equally spaced values from the lowest to the highest",
                {.range = at_least(2)}),
-    Key::text("distribution", kNone, "How samples are distributed; discrete ones have values",
+    Key::text("distribution", kNone, "Distribution of the samples (discrete requires values)",
               {.choices = kind_names}),
     Key::number("mode", kNone, "Most likely value of a triangular distribution"),
     Key::number("mean", kNone, "Mean of a normal or lognormal distribution"),
-    Key::number("standard_deviation", kNone, "Its standard deviation; from and to may cut it off",
+    Key::number("standard_deviation", kNone,
+                "Standard deviation of a normal or lognormal distribution; a normal one may be "
+                "truncated by from and to",
                 {.range = kPositive}),
-    Key::numbers("weights", kNone, "Of the values of a discrete distribution; equal if not there",
+    Key::numbers("weights", kNone,
+                 "Weights of the values of a discrete distribution (default: equal)",
                  {.range = at_least(0)}),
 };
 
 constexpr Key kCorrelationKeys[] = {
-    Key::texts("of", kNone, "The names of two parameters"),
-    Key::number("coefficient", kRequired, "Correlation of their normal scores",
+    Key::texts("of", kNone, "Names of the two correlated parameters"),
+    Key::number("coefficient", kRequired, "Correlation coefficient of their normal scores",
                 {.range = {.low = -1, .high = 1}}),
 };
 
 constexpr Key kSweepKeys[] = {
-    Key::text("plan", "grid", "How the rows are chosen", {.choices = sweep_plan_names}),
-    Key::count("samples", kNone, "Number of samples; a grid and a list have none",
+    Key::text("plan", "grid", "Sampling plan", {.choices = sweep_plan_names}),
+    Key::count("samples", kNone, "Number of samples (not for a grid or a list)",
                {.range = at_least(1)}),
-    Key::count("seed", "1", "Of the random numbers", {.range = at_least(0)}),
-    Key::texts("outputs", kNone, "Figures of the table, such as pendulum.flexion-60.head_rotation"),
-    Key::texts("curves", kNone,
-               "Curves with percentile bands, such as pendulum.flexion-60.head rotation"),
-    Key::tables("parameter", "What is varied", kParameterKeys),
-    Key::tables("correlation", "Which parameters are correlated", kCorrelationKeys),
+    Key::count("seed", "1", "Seed of the random numbers", {.range = at_least(0)}),
+    Key::texts("outputs", kNone, "Figures to tabulate, such as pendulum.flexion-60.head_rotation"),
+    Key::texts(
+        "curves", kNone,
+        "Curves whose percentile bands are computed, such as pendulum.flexion-60.head rotation"),
+    Key::tables("parameter", "Parameters that are varied", kParameterKeys),
+    Key::tables("correlation", "Correlations of parameters", kCorrelationKeys),
 };
 
 std::vector<double> equal_steps(double from, double to, int steps) {
@@ -70,12 +74,13 @@ std::vector<double> equal_steps(double from, double to, int steps) {
 
 void read_levels(const StudyTable& table, SweepParameter& parameter) {
   if (table.has("values")) {
-    table.refuse_given({"texts", "steps"}, "expected one of values, texts and steps, found two");
+    table.refuse_given({"texts", "steps"}, "expected only one of values, texts and steps");
     parameter.values = table.numbers("values");
     if (parameter.values.empty()) table.refuse("values", "expected at least one number");
   } else if (table.has("texts")) {
-    table.refuse_given({"steps"}, "expected one of values, texts and steps, found two");
-    table.refuse_given({"unit"}, "expected none beside texts, which have units of their own");
+    table.refuse_given({"steps"}, "expected only one of values, texts and steps");
+    table.refuse_given({"unit"},
+                       "has no effect on texts, which contain their own units; remove this key");
     parameter.texts = table.texts("texts");
     if (parameter.texts.empty()) table.refuse("texts", "expected at least one text");
   } else if (table.has("steps")) {
@@ -87,23 +92,24 @@ std::vector<double> read_weights(const StudyTable& table, std::size_t count) {
   if (!table.has("weights")) return std::vector<double>(count, 1.0 / static_cast<double>(count));
   std::vector<double> weights = table.numbers("weights", count);
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-  if (!(sum > 0)) table.refuse("weights", "expected a positive sum");
+  if (!(sum > 0)) table.refuse("weights", "expected weights whose sum is positive");
   for (double& weight : weights) weight /= sum;
   return weights;
 }
 
 void check_normal(const StudyTable& table, const SweepDistribution& found) {
   if (found.kind == Kind::lognormal && !(found.mean > 0))
-    table.refuse("mean", "expected a positive one of a lognormal distribution");
+    table.refuse("mean", "expected a positive mean for a lognormal distribution");
   // Further out the quantiles cannot be distinguished in floating point.
   constexpr double kFarthest = 8;
   const double center = found.mean;
   const double reach = kFarthest * found.standard_deviation;
   if (found.kind == Kind::normal && !(found.low < center + reach && found.high > center - reach))
     table.refuse(table.has("from") ? "from" : "to",
-                 "expected within 8 standard deviations of the mean");
+                 "expected a value within 8 standard deviations of the mean");
   if (found.kind == Kind::lognormal)
-    table.refuse_given({"from", "to"}, "expected none of a lognormal distribution");
+    table.refuse_given({"from", "to"},
+                       "not supported for a lognormal distribution; remove this key");
 }
 
 SweepDistribution read_distribution(const StudyTable& table) {
@@ -114,21 +120,23 @@ SweepDistribution read_distribution(const StudyTable& table) {
     found.mean = table.number("mean");
     found.standard_deviation = table.number("standard_deviation");
   } else {
-    table.refuse_given({"mean", "standard_deviation"},
-                       "expected with a normal or lognormal distribution only");
+    table.refuse_given(
+        {"mean", "standard_deviation"},
+        "has an effect only with a normal or lognormal distribution; remove this key");
   }
   if (!is_normal || table.has("from")) found.low = table.number("from");
   if (!is_normal || table.has("to")) found.high = table.number("to");
-  if (!(found.low < found.high)) table.refuse("to", "expected more than from");
+  if (!(found.low < found.high)) table.refuse("to", "expected a value above from");
   if (found.kind == Kind::log_uniform && !(found.low > 0))
-    table.refuse("from", "expected a positive value of a log_uniform distribution");
+    table.refuse("from", "expected a positive value for a log_uniform distribution");
   if (is_normal) check_normal(table, found);
   if (found.kind == Kind::triangular) {
     found.mode = table.number("mode");
     if (!(found.low <= found.mode && found.mode <= found.high))
       table.refuse("mode", "expected a value between from and to");
   } else {
-    table.refuse_given({"mode"}, "expected with a triangular distribution only");
+    table.refuse_given({"mode"},
+                       "has an effect only with a triangular distribution; remove this key");
   }
   return found;
 }
@@ -137,15 +145,15 @@ void read_sampled(const StudyTable& table, SweepParameter& parameter) {
   const bool is_discrete = !table.has("distribution") || table.text("distribution") == "discrete";
   if (is_discrete) {
     table.refuse_given({"mode", "mean", "standard_deviation"},
-                       "expected with a continuous distribution only");
+                       "has an effect only with a continuous distribution; remove this key");
     if (parameter.level_count() == 0)
-      table.refuse("distribution", "expected a distribution, or values to choose from");
+      table.refuse("distribution", "expected a distribution, values or texts, found none");
     parameter.distribution.emplace().kind = Kind::discrete;
     parameter.distribution->weights = read_weights(table, parameter.level_count());
     return;
   }
   table.refuse_given({"values", "texts", "steps", "weights"},
-                     "expected with a discrete distribution only");
+                     "has an effect only with a discrete distribution; remove this key");
   parameter.distribution = read_distribution(table);
 }
 
@@ -160,12 +168,15 @@ SweepParameter read_parameter(const StudyTable& table, bool is_sampled) {
     read_sampled(table, parameter);
   } else {
     table.refuse_given({"distribution", "mode", "mean", "standard_deviation", "weights"},
-                       "expected with a plan that samples only, not in a grid or a list");
+                       "has an effect only with a plan that takes samples, not with a grid or a "
+                       "list; remove this key");
     if (parameter.level_count() == 0)
-      table.refuse("values", "expected values, texts, or from, to and steps");
+      table.refuse("values", "expected values, or texts, or from, to and steps");
   }
   if (parameter.level_count() > 0 && !table.has("steps"))
-    table.refuse_given({"from", "to"}, "expected with steps or a continuous distribution only");
+    table.refuse_given(
+        {"from", "to"},
+        "has an effect only with steps or a continuous distribution; remove this key");
   table.finish();
   return parameter;
 }
@@ -175,7 +186,7 @@ SweepCorrelation read_correlation(const StudyTable& table,
   SweepCorrelation correlation;
   const std::vector<std::string> names = table.texts("of");
   if (names.size() != 2 || names[0] == names[1])
-    table.refuse("of", "expected the names of two parameters");
+    table.refuse("of", "expected the names of two different parameters");
   for (std::size_t k = 0; k < 2; ++k) {
     try {
       correlation.parameters[k] = find_name(names_of(parameters), names[k], "parameter");
@@ -183,8 +194,8 @@ SweepCorrelation read_correlation(const StudyTable& table,
       table.refuse("of", error.what());
     }
     if (!parameters[correlation.parameters[k]].is_continuous())
-      table.refuse("of",
-                   "expected continuous distributions, found that '" + names[k] + "' has values");
+      table.refuse("of", "expected parameters with continuous distributions, but '" + names[k] +
+                             "' has single values");
   }
   correlation.coefficient = table.number("coefficient");
   table.finish();
@@ -195,16 +206,16 @@ void check_plan(const StudyTable& table, const SweepSection& sweep) {
   const std::size_t length = sweep.parameters.front().level_count();
   for (const SweepParameter& each : sweep.parameters)
     if (sweep.plan == SweepPlan::list && each.level_count() != length)
-      table.refuse("parameter", "expected as many values of each parameter in a list, found " +
-                                    std::to_string(length) + " of '" +
-                                    sweep.parameters.front().name + "' and " +
-                                    std::to_string(each.level_count()) + " of '" + each.name + "'");
+      table.refuse("parameter",
+                   "expected the same number of values for all parameters of a list, found " +
+                       std::to_string(length) + " of '" + sweep.parameters.front().name + "' and " +
+                       std::to_string(each.level_count()) + " of '" + each.name + "'");
   if (sweep.plan == SweepPlan::sobol_indices && !sweep.correlations.empty())
     table.refuse("correlation",
-                 "expected independent parameters of plan sobol_indices; plan shapley tells the "
-                 "effects of correlated ones");
+                 "expected independent parameters for the plan sobol_indices; use the plan shapley "
+                 "for correlated ones");
   if (sweep.plan == SweepPlan::shapley && sweep.parameters.size() < 2)
-    table.refuse("parameter", "expected at least two of plan shapley");
+    table.refuse("parameter", "expected at least two parameters for the plan shapley");
 }
 
 }  // namespace
@@ -222,21 +233,25 @@ SweepSection read_sweep(const StudyTable& table) {
   if (is_sampled) {
     sweep.samples = table.count("samples");
   } else {
-    table.refuse_given({"samples"}, "expected none: the values of a grid and a list are its rows");
+    table.refuse_given(
+        {"samples"},
+        "has no effect on a grid or a list, whose rows are given by the values of the parameters");
     table.refuse_given({"seed"}, "has no effect on a grid or a list, which are not random");
   }
   sweep.seed = table.count("seed");
   sweep.outputs = table.texts("outputs");
   sweep.curves = table.texts("curves");
   if (sweep.outputs.empty() && sweep.curves.empty())
-    table.refuse("outputs", "expected at least one figure");
+    table.refuse("outputs", "expected at least one output or curve");
   for (const StudyTable& each : table.tables("parameter"))
     sweep.parameters.push_back(read_parameter(each, is_sampled));
-  if (sweep.parameters.empty()) table.refuse("parameter", "expected at least one");
+  if (sweep.parameters.empty()) table.refuse("parameter", "expected at least one parameter");
   check_names(names_of(sweep.parameters), "sweep.parameter");
   for (const StudyTable& each : table.tables("correlation"))
     sweep.correlations.push_back(read_correlation(each, sweep.parameters));
-  if (!is_sampled) table.refuse_given({"correlation"}, "expected with a plan that samples only");
+  if (!is_sampled)
+    table.refuse_given({"correlation"},
+                       "has an effect only with a plan that takes samples; remove this key");
   check_plan(table, sweep);
   table.finish();
   return sweep;
@@ -248,7 +263,7 @@ SweepSection read_sweep(const std::filesystem::path& study,
   if (!document.root().has("sweep"))
     throw InputError(study.string() +
                      ": expected [sweep] with a plan, outputs and [[sweep.parameter]], found none; "
-                     "'flexneck keys study.sweep' tells its keys");
+                     "'flexneck keys study.sweep' lists the keys");
   return read_sweep(document.root().table("sweep"));
 }
 

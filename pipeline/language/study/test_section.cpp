@@ -10,16 +10,16 @@ namespace {
 
 constexpr Key kDummyKeys[] = {
     Key::text("name", kRequired,
-              "Name of the dummy; tests of regulations for others do not apply to it"),
+              "Name of the dummy; tests for other dummies are reported as not applicable"),
 };
 
 constexpr Key kTestKeys[] = {
     Key::text("name", kRequired, "Name of the test"),
-    Key::text(
-        "regulation", kNone,
-        "Whose limits hold, such as \"572.33 flexion\"; besides or in place of measured data"),
-    Key::file("file", kNone, "File that the regulation stands in; without it those shipped"),
-    Key::text("case", kRequired, "Case that is judged; by a regulation one of the pendulum"),
+    Key::text("regulation", kNone,
+              "Test of a regulation whose limits apply, such as \"572.33 flexion\"; in addition to "
+              "or instead of measured data"),
+    Key::file("file", kNone, "File with the regulation (default: the shipped ones)"),
+    Key::text("case", kRequired, "Case that is evaluated; a regulation requires a pendulum case"),
 };
 
 /// Rules of a test.
@@ -67,8 +67,8 @@ void read_certification(const StudyTable& table, const std::vector<TestSection>&
   check_direction(table, study, test);
   if (study.dummy.empty())
     table.refuse("regulation",
-                 "expected a [dummy] with a name, which the regulation is for or "
-                 "not");
+                 "expected [dummy] with a name, which is compared with the dummy of the "
+                 "regulation, found none");
   study.tests.push_back(std::move(test));
 }
 

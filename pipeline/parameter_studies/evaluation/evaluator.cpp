@@ -246,7 +246,7 @@ void Evaluator::require_same_study() const {
   if (has_study_changed_)
     throw InputError(
         base_.file.string() +
-        ": it or a file that it includes has changed meanwhile; run the command again");
+        ": the file or one that it includes was changed during the run; run the command again");
 }
 
 Evaluation Evaluator::evaluate(const std::vector<std::string>& settings,

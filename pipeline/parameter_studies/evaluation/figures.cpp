@@ -191,7 +191,7 @@ std::size_t mode_of_figure(const fe_modal::ModalBody& body, const std::string& n
   const std::vector<std::size_t> modes = modes_of_kind(body, asked.kind);
   if (asked.rank > modes.size())
     throw InputError("expected a mode among those computed, found " + std::to_string(modes.size()) +
-                     " of kind " + asked.kind + "; raise modes.count");
+                     " of kind " + asked.kind + "; increase modes.count");
   return modes[asked.rank - 1];
 }
 

@@ -35,7 +35,7 @@ void require_face_set(const mesher::Mesh& mesh, const InterfaceSection& interfac
     static_cast<void>(mesh.face_set(interface.set));
   } catch (const InputError& error) {
     throw InputError("interface." + interface.name + ".set: " + error.what() +
-                     "; a node set will do if modes.fixed names it");
+                     "; a node set is allowed if modes.fixed names it");
   }
 }
 
@@ -49,7 +49,7 @@ void add_interfaces(const Study& study, const mesher::Mesh& mesh, fe_modal::Moda
     }
     if (!options.fixed_interface.empty()) {
       throw InputError("interface." + interface.name + ": interface '" + options.fixed_interface +
-                       "' lies on fixed nodes already; only one interface can");
+                       "' is already at fixed nodes; only one interface can be");
     }
     options.fixed_interface = interface.name;
     options.fixed_position_m = interface.position_m;
@@ -75,7 +75,7 @@ void attach_body(const Study& study, fe_modal::ModalOptions& options) {
 void tie_interfaces(const Study& study, fe_modal::ModalOptions& options) {
   for (const std::string& name : study.modes.rigid_interfaces) {
     try {
-      if (name == options.fixed_interface) throw InputError("'" + name + "' is fixed");
+      if (name == options.fixed_interface) throw InputError("'" + name + "' is at fixed nodes");
       const std::size_t which = find_name(names_of(options.interfaces), name, "interface");
       options.interfaces[which].is_rigid = true;
     } catch (const InputError& error) {

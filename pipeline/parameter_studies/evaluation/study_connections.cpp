@@ -61,11 +61,11 @@ class Builder {
     try {
       const std::vector<std::int32_t> nodes = nodes_of(at);
       if (is_rotation) {
-        throw InputError("node set '" + at + "' does not rotate; make a coupling of it");
+        throw InputError("node set '" + at + "' has no rotation; define a coupling for it");
       }
       if (nodes.size() != 1) {
         throw InputError("node set '" + at + "' has " + std::to_string(nodes.size()) +
-                         " nodes, expected one; make a coupling of it");
+                         " nodes, expected one; define a coupling for it");
       }
       return nodes.front();
     } catch (const InputError& error) {
@@ -101,7 +101,7 @@ class Builder {
       return;
     }
     if (support.turns != std::array<bool, 3>{}) {
-      throw InputError("modes." + name + ": turns are those of a coupling");
+      throw InputError("modes." + name + ": turns is supported only for a coupling");
     }
     try {
       connections().supports.push_back(
@@ -136,7 +136,7 @@ class Builder {
     if (!section.direction) {
       direction = position_of(sites[1]) - position_of(sites[0]);
       if (!(direction.norm() > 0)) {
-        throw InputError("modes." + name + ": the two lie in the same place; expected a direction");
+        throw InputError("modes." + name + ": the two ends coincide; give a direction");
       }
       direction.normalize();
     }

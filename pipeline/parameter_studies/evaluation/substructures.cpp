@@ -50,7 +50,7 @@ std::vector<fe_modal::InterfaceDefinition> interfaces_on(const mesher::Mesh& pie
     if (mesher::nodes_of(*own).nodes.size() !=
         mesher::nodes_of(whole.face_set(interface.set)).nodes.size()) {
       throw InputError("interface '" + interface.name +
-                       "' lies on several substructures; cut beside it");
+                       "' extends over several substructures; use another cutting plane");
     }
     result.push_back(interface);
   }
@@ -69,7 +69,8 @@ void hold_at_earlier(const std::vector<std::string>& names, std::size_t piece,
     return;
   }
   throw InputError("substructure '" + names[piece] +
-                   "' meets none of those before it; list them from the fixed end on");
+                   "' is not adjacent to any substructure before it; list the substructures in "
+                   "order from the fixed end");
 }
 
 bool has_open_slit(const mesher::Mesh& mesh) {
@@ -113,9 +114,9 @@ std::vector<Substructure> substructures(const SubstructuresSection& section,
                                         const mesher::Mesh& mesh,
                                         const fe_modal::ModalOptions& whole) {
   if (section.slit_motions != fe_modal::SlitMotions::none && !has_open_slit(mesh))
-    throw InputError("slits: the mesh has no open slit; take geometry.slits = \"open\"");
+    throw InputError("slits: the mesh has no open slit; set geometry.slits = \"open\"");
   if (!whole.prestress.empty())
-    throw InputError("the loads of a prestress are of the whole; leave modes.prestress out");
+    throw InputError("a prestress is not supported with substructures; remove modes.prestress");
   const std::vector<std::string> names = names_of(section.pieces);
   std::vector<mesher::MeshPiece> pieces =
       mesher::cut_apart(mesh, piece_of_element(section, mesh), names);
@@ -151,11 +152,11 @@ void require_rigid_face(const Study& study, const Substructure& piece,
         nodes.push_back(static_cast<Eigen::Index>(node));
       const double warp = fe_modal::warp_of_face(body, use.top, nodes);
       if (!(warp <= kLargest))
-        use.table.refuse("top",
-                         fmt::format("the face '{}' of piece '{}' is not rigid enough to be "
-                                     "condensed: it warps by {:.2g} of its motion, expected at "
-                                     "most {:g}; cut at a stiff plate",
-                                     use.top, piece.name, warp, kLargest));
+        use.table.refuse(
+            "top", fmt::format(
+                       "the face '{}' of substructure '{}' is not rigid enough to be condensed: it "
+                       "warps by {:.2g} of its motion, expected at most {:g}; cut at a stiff plate",
+                       use.top, piece.name, warp, kLargest));
       break;
     }
 }

@@ -106,7 +106,8 @@ FitSearch FitJob::search() const { return {fit_.section().iterations, {}, stoppe
 void FitJob::require_one_state(const RowResult& row) const {
   for (const FileRead& file : row.reads)
     if (!files_now_->is_same(file))
-      throw InputError(file.path + ": has changed meanwhile; the same command begins anew");
+      throw InputError(file.path +
+                       ": the file was changed during the run; run the same command again");
 }
 
 std::vector<RowResult> FitJob::rows_of(const Step& step, const Progress& tell) const {
@@ -115,10 +116,12 @@ std::vector<RowResult> FitJob::rows_of(const Step& step, const Progress& tell) c
   std::vector<RowResult> rows;
   RowReader reader(path, format);
   if (reader.is_of_another())
-    tell(path.string() + ": is of another study, other values or another program; begun anew");
+    tell(path.string() +
+         ": belongs to another study, other values or another program version; started again");
   for (RowResult row; rows.size() < step.count && reader.next(row);) rows.push_back(row);
   if (!reader.changed().empty())
-    tell(path.string() + ": " + reader.changed() + " has changed since; its rows are begun anew");
+    tell(path.string() + ": " + reader.changed() +
+         " has changed since then; the rows are computed again");
   RowWriter writer(path, format, reader);
   if (rows.size() == step.count) return rows;
   fit_.start_solvers();
@@ -262,13 +265,13 @@ FitResult FitJob::run(const Progress& tell) {
   std::error_code error;
   fs::create_directories(folder(results_), error);
   if (error)
-    throw InputError(folder(results_).string() + ": cannot be made a folder (" + error.message() +
-                     "); choose another with -o");
+    throw InputError(folder(results_).string() + ": the folder cannot be created (" +
+                     error.message() + "); choose another with -o");
   FitResult result;
   result.minima = fit_all(tell);
   result.families = families_of(fit_.objective(), result.minima);
   if (result.families.empty())
-    throw ComputationError("no fit has come to an end; the first: " +
+    throw ComputationError("all fits failed; the error of the first one: " +
                            result.minima.front().problem);
   const FitObjective& objective = fit_.objective();
   result.known = identifiability(

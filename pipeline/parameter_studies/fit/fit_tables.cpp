@@ -90,7 +90,7 @@ std::vector<std::string> target_row(const ShownTarget& shown, const FitObjective
 ResultTable target_table(const StudyFit& fit, const FitResult& result) {
   ResultTable table;
   table.name = "fit targets";
-  table.title = "Targets and what the best fit makes of them";
+  table.title = "Targets and values of the best fit";
   table.columns = {{"target", ""},     {"wanted", ""}, {"fit", ""}, {"unit", ""},   {"error", "%"},
                    {"deviations", ""}, {"window", ""}, {"use", ""}, {"origin", ""}, {"output", ""}};
   const std::vector<FitTerm>& terms = fit.objective().terms();
@@ -103,15 +103,15 @@ ResultTable target_table(const StudyFit& fit, const FitResult& result) {
     first = end;
   }
   table.notes = {
-      "Deviations: distance in standard deviations, of a curve the root of their mean square, of a "
-      "window that from its nearer edge in units of its smoothing."};
+      "Deviations: distance in standard deviations; for a curve their root mean square, for a "
+      "window the distance from its nearer edge in units of its smoothing."};
   return table;
 }
 
 ResultTable family_table(const StudyFit& fit, const FitResult& result) {
   ResultTable table;
   table.name = "fit families";
-  table.title = "Minima that the fits ended in, the best first";
+  table.title = "Minima found by the fits, the best first";
   table.columns = named(fit.section().parameters,
                         {{"family", ""}, {"chi-squared", ""}, {"starts", ""}, {"verdict", ""}});
   for (std::size_t k = 0; k < result.families.size(); ++k) {
@@ -130,9 +130,8 @@ ResultTable family_table(const StudyFit& fit, const FitResult& result) {
   const auto failed = std::count_if(result.minima.begin(), result.minima.end(),
                                     [](const Minimum& each) { return each.has_failed(); });
   table.notes = {
-      fmt::format("{} starts that the study accepts, {} of them failed. Minima within {:g} of the "
-                  "bounds' width "
-                  "of one another are one family.",
+      fmt::format("{} starts that the study accepts, {} of which failed. Minima that differ by at "
+                  "most {:g} of the width of the bounds form one family.",
                   result.minima.size(), failed, kSamePlace)};
   return table;
 }
@@ -140,7 +139,7 @@ ResultTable family_table(const StudyFit& fit, const FitResult& result) {
 ResultTable direction_table(const StudyFit& fit, const FitResult& result) {
   ResultTable table;
   table.name = "fit directions";
-  table.title = "Directions of the parameters and how firmly the targets fix them";
+  table.title = "Directions in parameter space and how well the targets determine them";
   table.columns = named(fit.section().parameters, {{"singular value", ""}, {"fixed", ""}});
   for (ResultTable::Column& column : table.columns) column.unit.clear();
   const Identifiability& known = result.known;
@@ -152,8 +151,9 @@ ResultTable direction_table(const StudyFit& fit, const FitResult& result) {
     table.rows.push_back(std::move(row));
   }
   table.notes = {
-      "Of the targets' Jacobian, in standard deviations by the width of the bounds. Below 3.46 one "
-      "deviation along the direction is more than that of the bounds' own uniform distribution."};
+      "Singular values of the Jacobian of the targets, in standard deviations per width of the "
+      "bounds. Below 3.46, the standard deviation along the direction exceeds that of a uniform "
+      "distribution within the bounds."};
   return table;
 }
 
@@ -174,7 +174,7 @@ ResultTable correlation_table(const StudyFit& fit, const FitResult& result) {
 ResultTable contribution_table(const StudyFit& fit, const FitResult& result) {
   ResultTable table;
   table.name = "fit contributions";
-  table.title = "Which target fixes which parameter";
+  table.title = "Contributions of the targets to the certainty of the parameters";
   table.columns = named(fit.section().parameters, {{"without", ""}});
   for (ResultTable::Column& column : table.columns) column.unit.clear();
   const Identifiability& known = result.known;
@@ -184,8 +184,8 @@ ResultTable contribution_table(const StudyFit& fit, const FitResult& result) {
       table.rows.back().push_back(std::isinf(each) ? "alone" : fmt::format("{:.3g}", each));
   }
   table.notes = {
-      "How many times as uncertain the parameter would be without the target; \"alone\": nothing "
-      "else fixes it."};
+      "Factor by which the uncertainty of the parameter would increase without the target; "
+      "\"alone\": no other target determines it."};
   return table;
 }
 
@@ -204,18 +204,19 @@ ResultTable history_table(const StudyFit& fit, const HistoryMatch& history) {
   add("all that are fitted", history.all);
   for (std::size_t k = 0; k < targets.size(); ++k)
     add(targets[k].first + (targets[k].second ? " (held out)" : ""), history.by_target[k]);
-  table.notes = {fmt::format(
-      "Random points of the prior, {} of which failed. Met is a window by its edges, a corridor by "
-      "those at all points, a value within {:g} standard deviations, a curve if the root of their "
-      "mean square is. Confidence after Clopper and Pearson.",
-      history.failed, fit.section().history_deviations)};
+  table.notes = {
+      fmt::format("Random points of the prior, {} of which failed. A window is met within its "
+                  "limits, a corridor within its limits at all points, a value within {:g} "
+                  "standard deviations, and a curve if the root mean square of its deviations is "
+                  "within as many. Confidence after Clopper and Pearson.",
+                  history.failed, fit.section().history_deviations)};
   return table;
 }
 
 ResultTable choice_table(const StudyFit& fit) {
   ResultTable table;
   table.name = "fit choices";
-  table.title = "What was chosen with the targets in sight";
+  table.title = "Choices made with knowledge of the targets";
   table.columns = {{"choice", ""}};
   for (const std::string& each : fit.section().choices) table.rows.push_back({each});
   return table;
@@ -264,8 +265,9 @@ std::vector<FittedParameter> fitted_parameters(const FitObjective& objective,
 
 std::string choices_text(const FitSection& section) {
   if (section.choices.empty())
-    return "The study states no choices that were made with the targets in sight (fit.choices).";
-  std::string text = "Chosen with the targets in sight:";
+    return "The study states no choices that were made with knowledge of the targets "
+           "(fit.choices).";
+  std::string text = "Chosen with knowledge of the targets:";
   for (std::size_t k = 0; k < section.choices.size(); ++k)
     text += fmt::format(" ({}) {}", k + 1, section.choices[k]);
   return text;

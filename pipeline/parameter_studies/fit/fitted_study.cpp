@@ -126,7 +126,8 @@ std::string comments(const StudyFit& fit, const FitResult& result) {
   const Study& study = fit.evaluator().base();
   std::string text = wrapped(verdict_of_fit(fit.objective(), result), "# ");
   text += wrapped(
-      "A fit, not a measurement: the tables beside it (fit.json) tell what it rests on.", "# ");
+      "The values are fitted, not measured; the tables in fit.json show what they are based on.",
+      "# ");
   const Provenance made = provenance_of(study);
   std::string inputs;
   for (const InputFile& each : made.inputs)
@@ -134,7 +135,7 @@ std::string comments(const StudyFit& fit, const FitResult& result) {
   text +=
       wrapped("Made by " + made.program + " (" + made.git_hash + ") from " + inputs + ".", "# ");
   for (const std::string& each : fit.section().choices)
-    text += wrapped("Chosen with the targets in sight: " + each, "# ");
+    text += wrapped("Chosen with knowledge of the targets: " + each, "# ");
   return text;
 }
 

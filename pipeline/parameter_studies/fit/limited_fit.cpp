@@ -108,7 +108,7 @@ Minimum least_squares_within_limits(const FitObjective& objective, const VectorX
   found.has_converged = found.has_converged && is_settled;
   for (const Limit& each : limits)
     if (!each.is_met(found.values))
-      found.problem = "no place was found where '" + each.target() + "' is inside its window";
+      found.problem = "no point was found at which '" + each.target() + "' is inside its window";
   return found;
 }
 

@@ -97,8 +97,8 @@ void StudyFit::find_start() {
     }
     if (!(each.from <= value && value <= each.to))
       refuse(
-          fmt::format("expected bounds that hold the start, found {:g} to {:g} and the study's "
-                      "{}; widen them, or give start",
+          fmt::format("expected bounds that contain the start, found {:g} to {:g} and the study's "
+                      "value {}; widen the bounds, or give start",
                       each.from, each.to, found->value));
   }
   start_ = objective_->place(at);
@@ -221,9 +221,9 @@ void StudyFit::look_for_closed_slopes() {
 }
 
 std::string StudyFit::slopes_text() const {
-  if (!has_closed_slopes_) return "by differences";
+  if (!has_closed_slopes_) return "by finite differences";
   return others_.is_empty() ? "in closed form"
-                            : "of the modes in closed form, others by differences";
+                            : "in closed form for modes, otherwise by finite differences";
 }
 
 void StudyFit::check_produced() {

@@ -39,10 +39,10 @@ FitTerm window_term(const FitTarget& target, const FitTerm::Window& window,
                                ? kShare * (window.high - window.low)
                                : number_of(target, "smoothing", target.smoothing, si_unit);
   if (!(smoothing > 0))
-    target.table.refuse("smoothing", target.smoothing.empty()
-                                         ? "expected this key of a corridor that has no width "
-                                           "somewhere"
-                                         : "expected a positive value");
+    target.table.refuse("smoothing",
+                        target.smoothing.empty()
+                            ? "expected this key, since the corridor has no width at some point"
+                            : "expected a positive value");
   return {target.name, 0, smoothing, window, target.is_held_out, target.must_hold};
 }
 
@@ -50,8 +50,7 @@ FitTerm window_term(const FitTarget& target, const std::string& si_unit) {
   FitTerm::Window window;
   if (!target.low.empty()) window.low = number_of(target, "low", target.low, si_unit);
   if (!target.high.empty()) window.high = number_of(target, "high", target.high, si_unit);
-  if (!(window.low < window.high))
-    target.table.refuse("high", "expected more than low, the window crosses itself");
+  if (!(window.low < window.high)) target.table.refuse("high", "expected a value above low");
   return window_term(target, window, si_unit);
 }
 

@@ -31,9 +31,10 @@ void add_open_directions(const FitObjective& objective, const FitResult& result,
     std::string names;
     for (const Index each : along)
       names += (names.empty() ? "'" : ", '") + name_of(objective, each) + "'";
-    clauses.push_back(fmt::format("no target fixes {} (singular value {:.2g} of at least {:.3g})",
-                                  along.size() > 1 ? "how " + names + " go together" : names,
-                                  known.singular_values[k], kLeastSingularValue));
+    clauses.push_back(
+        fmt::format("no target determines {} (singular value {:.2g}, needed is at least {:.3g})",
+                    along.size() > 1 ? "the combination of " + names : names,
+                    known.singular_values[k], kLeastSingularValue));
   }
 }
 
@@ -47,8 +48,9 @@ void add_profiles(const FitObjective& objective, const FitResult& result,
       open += (open.empty() ? "'" : ", '") + name_of(objective, static_cast<Index>(k)) + "'";
     is_settled = is_settled && !profile.better;
   }
-  if (!open.empty()) clauses.push_back("the bounds do not hold the confidence interval of " + open);
-  if (!is_settled) clauses.emplace_back("profiles have come across a better fit, take more starts");
+  if (!open.empty())
+    clauses.push_back("the bounds do not contain the confidence interval of " + open);
+  if (!is_settled) clauses.emplace_back("the profiles found a better fit; use more starts");
 }
 
 void add_bounds(const FitObjective& objective, const FitResult& result,
@@ -85,7 +87,7 @@ std::string verdict_of_fit(const FitObjective& objective, const FitResult& resul
   std::string text;
   if (clauses.empty()) {
     text = fmt::format(
-        "Unique within the bounds, as far as {} {} tell{}",
+        "Unique within the bounds, as far as {} {} show{}",
         result.minima.size() == 1 ? "a single" : std::to_string(result.minima.size()),
         result.minima.size() == 1 ? "start" : "starts", result.minima.size() == 1 ? "s" : "");
   } else {

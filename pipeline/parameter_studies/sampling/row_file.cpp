@@ -145,8 +145,8 @@ bool RowReader::are_as_read(std::string_view line) {
     changed_ = read.path;
     if (is_unknown(read))
       changed_ +=
-          " (a script that reads what nobody knows counts for one process alone, so take no "
-          "--shard)";
+          " (the files that the script reads are unknown, so that its rows are valid for one "
+          "process only; run without --shard)";
     return false;
   }
   return true;
@@ -204,7 +204,7 @@ void RowWriter::write(const FileDescriptor& file, std::string_view bytes) const 
         uninterrupted([&] { return ::write(file.get(), bytes.data(), bytes.size()); });
     if (count <= 0)
       throw ComputationError(path_.string() + ": cannot be written (" + std::strerror(errno) +
-                             "); the rows before are kept: the same command goes on with the rest");
+                             "); completed rows are kept; run the same command again to continue");
     bytes.remove_prefix(static_cast<std::size_t>(count));
   }
 }

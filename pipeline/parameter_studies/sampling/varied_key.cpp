@@ -109,7 +109,7 @@ void check_varied(Evaluator& evaluator, const std::vector<TwoSettings>& all,
     if (!a && !b) throw InputError(who + problem);
     if (a && b && each.first != each.second && !is_any_different(*a, *b, wanted))
       throw InputError(who + "expected a key that an output depends on, found '" + each.varied.key +
-                       "', which none of " + outputs + " does; leave it out");
+                       "', on which none of " + outputs + " depends; remove it");
   }
 }
 

@@ -28,8 +28,8 @@ Correlation::Correlation(const SweepSection& sweep) : is_none_(sweep.correlation
   factor_ = cholesky.matrixL();
   if (cholesky.info() != Eigen::Success || !(factor_.diagonal().minCoeff() > kLeastPivot))
     throw InputError(
-        "sweep.correlation: expected coefficients that go together, found a matrix of correlation "
-        "that is not positive definite; make them smaller");
+        "sweep.correlation: expected consistent coefficients, found a correlation matrix that is "
+        "not positive definite; reduce them");
 }
 
 VectorXd probabilities(const VectorXd& scores) {

@@ -33,7 +33,7 @@ void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error)
-    throw InputError(folder.string() + ": cannot be made a folder (" + error.message() +
+    throw InputError(folder.string() + ": the folder cannot be created (" + error.message() +
                      "); choose another with -o");
 }
 
@@ -70,8 +70,8 @@ void SweepJob::add_curves(const Evaluation& evaluation, RowResult& result) const
     const VectorXd& time_s = curves_[k].time_s;
     if (evaluation.times_s[k].size() != time_s.size() || evaluation.times_s[k] != time_s)
       throw InputError(curves_[k].name +
-                       ": expected the times of the base study, found others; leave the curve out "
-                       "where duration or interval are varied");
+                       ": expected the output times of the base study, found others; remove the "
+                       "curve if duration or interval are varied");
     result.curves.segment(start, time_s.size()) = evaluation.curves[k];
     start += time_s.size();
   }
@@ -119,10 +119,12 @@ bool SweepJob::compute(const SweepShare& share, const Progress& tell) {
   };
   RowReader reader(own, format_);
   if (reader.is_of_another() && tell)
-    tell(own.string() + ": is of another study, other values or another program; begun anew");
+    tell(own.string() +
+         ": belongs to another study, other values or another program version; started again");
   const std::optional<std::uint64_t> last = read_to_end(reader);
   if (!reader.changed().empty() && tell)
-    tell(own.string() + ": " + reader.changed() + " has changed since; its rows are begun anew");
+    tell(own.string() + ": " + reader.changed() +
+         " has changed since then; the rows are computed again");
   const std::optional<std::uint64_t> first_due = decltype(due)(due)();
   if (last && first_due && *first_due < *last) {
     // Earlier rows were in a file that no longer exists, and a file is in ascending order.
@@ -132,7 +134,7 @@ bool SweepJob::compute(const SweepShare& share, const Progress& tell) {
   RowWriter writer(own, format_, reader);
   std::uint64_t count = 0;
   for (auto counting = due; counting();) ++count;
-  if (tell) tell(fmt::format("{} rows to compute, {} there already", count, rows_done(shard)));
+  if (tell) tell(fmt::format("{} rows to compute, {} already computed", count, rows_done(shard)));
   if (count == 0) return true;
   evaluator_.start();
   Countdown countdown(count, "rows", tell);
@@ -162,11 +164,12 @@ std::vector<std::string> SweepJob::outdated(const Shard& shard) const {
     RowReader reader(file, format_);
     read_to_end(reader);
     if (reader.is_of_another() && file.parent_path().filename().string().ends_with(beside))
-      lines.push_back(file.string() +
-                      ": rows are of another study, other values or another program");
+      lines.push_back(
+          file.string() +
+          ": the rows belong to another study, other values or another program version");
     if (!reader.changed().empty())
-      lines.push_back(file.string() + ": rows were made from another " + reader.changed() +
-                      " than it is now");
+      lines.push_back(file.string() + ": the rows were computed from a different version of " +
+                      reader.changed());
   }
   return lines;
 }

@@ -47,7 +47,7 @@ SweepRows::SweepRows(SweepSection section)
       count_ = static_cast<std::uint64_t>(section_.samples) * rows_per_sample();
   }
   if (count_ > kMaxRows)
-    throw InputError("sweep: expected at most 10^9 rows, found more; take fewer values or samples");
+    throw InputError("sweep: expected at most 10^9 rows, found more; use fewer values or samples");
   for (const SweepParameter& each : section_.parameters) {
     SiUnit unit = si_unit_of(varied_by(each));
     units_.push_back(std::move(unit.name));

@@ -98,7 +98,7 @@ std::string left_out_note(const std::vector<OutputColumn>& outputs,
   for (std::size_t k = 0; k < outputs.size(); ++k)
     if (sensitivity[k].left_out > 0)
       note += fmt::format("{}{} of {} samples of {}",
-                          note.empty() ? "Left out for failed rows: " : ", ",
+                          note.empty() ? "Omitted because of failed rows: " : ", ",
                           sensitivity[k].left_out, samples, outputs[k].name);
   return note.empty() ? note : note + ".";
 }
@@ -121,7 +121,7 @@ ResultTable shapley_table() {
   table.title = "Shapley effects: shares of the variance that sum to 1, with 95 % confidence";
   table.columns = {{"output", ""}, {"parameter", ""}, {"effect", ""}, {"from", ""}, {"to", ""}};
   table.notes = {
-      "Of correlated parameters, too: Song, Nelson and Staum (2016), confidence by "
+      "Also valid for correlated parameters. Song, Nelson and Staum (2016), confidence by "
       "bootstrap."};
   return table;
 }

@@ -148,7 +148,7 @@ void Model::add_function(const std::string& name, const std::string& lower,
   multibody::check(file_.model);
   file_.parameters.push_back({std::string(multibody::FunctionForce::kName) + "." + name,
                               "a function of Python", Origin::synthetic,
-                              "not in any file; see who made this run"});
+                              "not stored in any file; ask the author of this run"});
 }
 
 }  // namespace

@@ -97,9 +97,8 @@ void compute(Place place, const std::function<void(const Checkpoint&)>& work) {
 void start_solvers() {
   if (fe_modal::RankSession::is_launched())
     throw InputError(
-        "Python runs on one process, and mpirun has started several; 'mpirun flexneck modes' "
-        "shares "
-        "the work, and its folder of results can be read from here");
+        "flexneck for Python runs on one process only, but mpirun has started several; use 'mpirun "
+        "flexneck modes', whose folder of results can be read from Python");
   if (!solvers()->session) solvers()->session.emplace();
 }
 

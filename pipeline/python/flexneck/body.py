@@ -33,9 +33,9 @@ class Interface(typing.NamedTuple):
 
 describe(
     Interface,
-    position="Undeformed, (3,), m, body frame; a view.",
-    translation="Of each mode, (m, 3), kg^(-1/2); a view.",
-    rotation="Of each mode, (m, 3), kg^(-1/2) rad/m; a view.",
+    position="Undeformed position, (3,), m, body frame; a view.",
+    translation="Translation in each mode, (m, 3), kg^(-1/2); a view.",
+    rotation="Rotation in each mode, (m, 3), kg^(-1/2) rad/m; a view.",
 )
 
 
@@ -52,9 +52,9 @@ class ModalBody:
 
     @staticmethod
     def read(path: Path) -> ModalBody:
-        """The body of a file modes.h5, or of one of another program: .fem (MBDyn) or .SID_FEM; a
-        warning tells what such a file does not carry over. Its experiments are those of the study
-        that made it: Mesh.modes()."""
+        """Reads a body from a file modes.h5, or from a file of another program: .fem (MBDyn) or
+        .SID_FEM; a warning lists the data that such a file does not contain. A body that is read
+        from a file has no experiments; use Mesh.modes() for these."""
         if pathlib.Path(path).suffix not in (".fem", ".SID_FEM"):
             return ModalBody(_core.read_body(str(path)), None, None, str(path))
         place = Folder(None)
@@ -69,13 +69,13 @@ class ModalBody:
               interfaces: typing.Mapping[str, Interface],
               invariants: typing.Mapping[str, typing.Any],
               kinds: typing.Sequence[str] | None = None) -> ModalBody:
-        """Writes a body of m mass-normalised modes that is given by arrays as a file modes.h5, for
-        models to use, and reads it.
+        """Writes a body with m mass-normalised modes, given by arrays, to a file modes.h5 that
+        models can use, and reads it back.
 
         names: of the modes. frequencies: (m,), Hz, ascending. nodes: (k, 3), m. shapes: (m, k, 3),
-        kg^(-1/2). interfaces: by name. invariants: all that the property `invariants` has. kinds:
-        of the modes; none: all normal. Raises InputError for a body that breaks what holds in
-        every body (fe_modal/body/README.md).
+        kg^(-1/2). interfaces: by name. invariants: all entries of the property `invariants`. kinds:
+        of the modes; default: all normal. Raises InputError if the arrays are inconsistent
+        (fe_modal/body/README.md).
         """
         arrays = {"frequencies": frequencies, "nodes": nodes, "shapes": shapes}
         _core.build_body(str(path), list(names), list(kinds or ["normal"] * len(names)),
@@ -85,28 +85,28 @@ class ModalBody:
 
     @property
     def frequencies(self) -> Array:
-        """Of the modes, ascending, (m,), Hz; a view."""
+        """Frequencies of the modes, ascending, (m,), Hz; a view."""
         return typing.cast("Array", self._data.frequencies)
 
     @property
     def names(self) -> list[str]:
-        """Of the modes, such as "fore-aft bending 1"."""
+        """Names of the modes, such as "fore-aft bending 1"."""
         return [each[0] for each in self._data.modes]
 
     @property
     def kinds(self) -> list[str]:
-        """Of the modes: "normal", an eigenvector, or a static shape's kind."""
+        """Kinds of the modes: "normal" for an eigenvector, or the kind of a static shape."""
         return [each[1] for each in self._data.modes]
 
     @property
     def shares(self) -> Array:
-        """Of each mode's kinetic energy in fore-aft, lateral, twisting and axial motion, (m, 4),
-        per cent."""
+        """Shares of the kinetic energy of each mode in fore-aft, lateral, twisting and axial
+        motion, (m, 4), per cent."""
         return np.array([each[2] for each in self._data.modes])
 
     @property
     def residuals(self) -> Array:
-        """||K x - lambda M x|| / ||K x|| of each mode, (m,), 1."""
+        """Residual ||K x - lambda M x|| / ||K x|| of each mode, (m,), 1."""
         return np.array([each[3] for each in self._data.modes])
 
     @property
@@ -125,12 +125,12 @@ class ModalBody:
 
     @property
     def interfaces(self) -> dict[str, Interface]:
-        """Where other bodies attach, by name."""
+        """Interfaces at which other bodies are attached, by name."""
         return {name: Interface(*each) for name, each in self._data.interfaces.items()}
 
     @property
     def mass(self) -> float:
-        """kg."""
+        """Mass of the body, kg."""
         return float(self._data.invariants["mass"])
 
     @property
@@ -143,24 +143,24 @@ class ModalBody:
 
     @property
     def boundary(self) -> str:
-        """What was fixed."""
+        """Boundary conditions: what was fixed."""
         return str(self._data.boundary)
 
     @property
     def completeness(self) -> str:
-        """What was checked of whether a mode is missing."""
+        """Result of the check that no mode is missing."""
         return str(self._data.completeness)
 
     def pendulum(self, case: str) -> Run:
         """Runs a case of the head/neck pendulum, as `flexneck pendulum --case` does.
 
-        case: such as "flexion-120"; Study.cases has all.
+        case: name of the case, such as "flexion-120"; Study.cases lists all.
         """
         return self._experiment("pendulum", case)
 
     def static(self, case: str) -> Run:
-        """Runs a case of the static neck tester, as `flexneck static --case` does: output times
-        are those of the ramp of the load."""
+        """Runs a case of the static neck tester, as `flexneck static --case` does. The output times
+        are those of the load ramp."""
         return self._experiment("static", case)
 
     def _experiment(self, kind: str, case: str) -> Run:
@@ -174,8 +174,9 @@ class ModalBody:
         return Run(_core.read_run(folder.file(f"{kind}-{case}.h5")), folder, f"{kind}-{case}")
 
     def export(self, path: Path) -> None:
-        """Writes the body in the format of the file's ending, as `flexneck export` does: such as
-        .fem (MBDyn), or with its mesh .dat (ATB) or .vtu. InputError for another lists them all."""
+        """Writes the body in the format given by the extension of the file, as `flexneck export`
+        does, such as .fem (MBDyn), or with its mesh .dat (ATB) or .vtu. The InputError for an
+        unknown extension lists all of them."""
         if _core.exports_study(pathlib.Path(path).suffix):
             study, folder = self._require("mesh")
             execute("export", folder, [study.file], study.settings, target=str(path))
@@ -183,17 +184,17 @@ class ModalBody:
             execute("export", Folder("."), [self._path], [], target=str(path))
 
     def write(self, path: Path) -> None:
-        """Writes the file that read() reads, the bytes of the command's modes.h5."""
+        """Writes the file that read() reads, identical to modes.h5 of the command."""
         shutil.copyfile(self._path, path)
 
     @property
     def folder(self) -> pathlib.Path | None:
-        """The folder of results; none of a body that was read."""
+        """The folder of results; None for a body that was read from a file."""
         return None if self._folder is None else self._folder.path
 
     def _require(self, what: str) -> tuple[Study, Folder]:
         if self._study is None or self._folder is None:
-            raise InputError(f"this body was read from a file, and {what} are a study's: make it by "
+            raise InputError(f"this body was read from a file and has no {what}; compute it with "
                              "Mesh.modes()")
         return self._study.copy(), self._folder
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is raised, and what is warned of."""
+"""Exceptions and warnings."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ if typing.TYPE_CHECKING:
 
 
 class Error(Exception):
-    """Whatever flexneck raises on purpose."""
+    """Base class of all exceptions that flexneck raises intentionally."""
 
 
 class InputError(Error, ValueError):
-    """What was given cannot be used: an argument, a study, a model, a file. The text is one line:
-    where, what was expected, what was found, what to do."""
+    """Invalid input: an argument, a study, a model or a file. The message is one line that says
+    where, what was expected, what was found and what to do."""
 
 
 class ComputationError(Error, RuntimeError):
-    """A computation on sound input failed, or its results could not be written."""
+    """A computation with valid input failed, or its results could not be written."""
 
 
 class IncompleteRunError(ComputationError):
-    """A run that could not go on. `run` has what was computed until then."""
+    """A run ended early. `run` contains the results up to that time."""
 
     run: Run
 
@@ -34,15 +34,15 @@ class IncompleteRunError(ComputationError):
 
 
 class ResultWarning(UserWarning):
-    """A result may not be what it seems."""
+    """A result may be unreliable."""
 
 
 class VerificationWarning(ResultWarning):
-    """A computed figure is further from its published one than its tolerance."""
+    """A computed figure deviates from the published one by more than its tolerance."""
 
 
 def warn(lines: list[str]) -> None:
-    """Warns of each line, as of the code that called flexneck."""
+    """Issues a warning for each line, attributed to the code that called flexneck."""
     level = 2
     while _is_ours(level):
         level += 1

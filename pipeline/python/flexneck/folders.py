@@ -17,7 +17,7 @@ Path = typing.Union[str, "os.PathLike[str]"]
 
 
 class Folder:
-    """A folder of results: the one that is named, or one of its own that goes with this object."""
+    """A folder of results: a given one, or a temporary one that is removed with this object."""
 
     def __init__(self, path: Path | None) -> None:
         self.path = pathlib.Path(tempfile.mkdtemp(prefix="flexneck-") if path is None else path).absolute()
@@ -30,7 +30,7 @@ class Folder:
 
 def execute(command: str, folder: Folder, files: list[str], settings: list[str],
             **options: typing.Any) -> bool:
-    """Does a command of `flexneck`, its warnings become Python's. Whether no verification failed."""
+    """Runs a command of `flexneck` and issues its warnings. Returns False if a verification failed."""
     passed, warnings = _core.execute(command, files, settings, str(folder.path), **options)
     warn(warnings)
     return bool(passed)

@@ -23,7 +23,7 @@ if typing.TYPE_CHECKING:
 
 
 class Material(typing.NamedTuple):
-    """Linear elastic and isotropic."""
+    """A linear elastic, isotropic material."""
 
     name: str
     youngs_modulus: float
@@ -33,10 +33,10 @@ class Material(typing.NamedTuple):
 
 describe(
     Material,
-    name="Such as \"aluminium\".",
-    youngs_modulus="Pa.",
-    poissons_ratio="1.",
-    density="kg/m^3.",
+    name="Name, such as \"aluminium\".",
+    youngs_modulus="Young's modulus, Pa.",
+    poissons_ratio="Poisson's ratio, 1.",
+    density="Density, kg/m^3.",
 )
 
 
@@ -51,15 +51,15 @@ class ElementBlock(typing.NamedTuple):
 
 describe(
     ElementBlock,
-    part="Such as \"plate_2\".",
-    kind="Such as \"hex27\".",
+    part="Name of the part, such as \"plate_2\".",
+    kind="Element kind, such as \"hex27\".",
     material="Index into Mesh.materials.",
-    nodes="(elements, nodes of each) rows of Mesh.nodes, gmsh's order; a view.",
+    nodes="(elements, nodes of each) rows of Mesh.nodes, in the node order of gmsh; a view.",
 )
 
 
 class Part(typing.NamedTuple):
-    """What a part's elements of one kind amount to."""
+    """Measures of the elements of one part and one kind."""
 
     part: str
     kind: str
@@ -76,11 +76,11 @@ describe(
     part="Name of the part.",
     kind="Kind of its elements.",
     material="Name of its material.",
-    elements="How many.",
-    volume="m^3.",
-    mass="kg.",
-    smallest_scaled_jacobian="1, of all its elements.",
-    largest_aspect_ratio="1, likewise.",
+    elements="Number of elements.",
+    volume="Volume, m^3.",
+    mass="Mass, kg.",
+    smallest_scaled_jacobian="Smallest scaled Jacobian of its elements, 1.",
+    largest_aspect_ratio="Largest aspect ratio of its elements, 1.",
 )
 
 
@@ -94,8 +94,8 @@ class Mesh:
 
     @staticmethod
     def read(path: Path) -> Mesh:
-        """The mesh of a file mesh.h5. Its modes are computed by the study that made it:
-        Study.mesh()."""
+        """Reads a mesh from a file mesh.h5. Its modes cannot be computed; use Study.mesh() for
+        that."""
         return Mesh(_core.read_mesh(str(path)), None, None)
 
     @property
@@ -105,17 +105,17 @@ class Mesh:
 
     @property
     def blocks(self) -> list[ElementBlock]:
-        """Elements, a block for each part and kind."""
+        """Elements, one block per part and kind."""
         return [ElementBlock(*each) for each in self._data.blocks]
 
     @property
     def node_sets(self) -> dict[str, npt.NDArray[np.int32]]:
-        """Nodes by the names of their sets, (nodes,) rows of `nodes`, ascending; views."""
+        """Node sets by name: (nodes,) rows of `nodes`, ascending; views."""
         return dict(self._data.node_sets)
 
     @property
     def materials(self) -> list[Material]:
-        """Materials, in the order that blocks refer to."""
+        """Materials, in the order to which blocks refer."""
         return [Material(*each) for each in self._data.materials]
 
     @property
@@ -125,17 +125,17 @@ class Mesh:
 
     @property
     def mass(self) -> float:
-        """kg."""
+        """Mass of the mesh, kg."""
         return float(sum(part.mass for part in self.parts))
 
     def modes(self, count: int | None = None, sensitivity: bool = False,
               settings: typing.Mapping[str, typing.Any] | None = None) -> ModalBody:
         """Vibration modes of the mesh, as `flexneck modes` does.
 
-        count: of elastic modes; none: what the study says.
-        sensitivity: derivatives by all dimensions and material constants, too, in the file
-            sensitivities.json of the folder.
-        settings: more values of the study's [modes], such as {"modes.check": True}.
+        count: number of elastic modes; default: that of the study.
+        sensitivity: also compute sensitivities to all dimensions and material constants, in the
+            file sensitivities.json of the folder.
+        settings: further values of [modes] of the study, such as {"modes.check": True}.
         """
         study, folder = self._require("modes")
         more = dict(settings or {})
@@ -148,25 +148,25 @@ class Mesh:
                          folder.file("modes.h5"))
 
     def export(self, path: Path) -> None:
-        """Writes the mesh in the format of the file's ending, as `flexneck export` does: .msh,
-        .inp, .mtx, .petsc."""
+        """Writes the mesh in the format given by the extension of the file, as `flexneck export`
+        does: .msh, .inp, .mtx, .petsc."""
         study, folder = self._require("exports")
         execute("export", folder, [study.file], study.settings, target=str(path))
 
     def write(self, path: Path) -> None:
-        """Writes the file that read() reads; it is the folder's mesh.h5."""
+        """Writes the file that read() reads, identical to mesh.h5 of the folder."""
         _, folder = self._require("files")
         shutil.copyfile(folder.file("mesh.h5"), path)
 
     @property
     def folder(self) -> pathlib.Path | None:
-        """The folder of results; none of a mesh that was read."""
+        """The folder of results; None for a mesh that was read from a file."""
         return None if self._folder is None else self._folder.path
 
     def _require(self, what: str) -> tuple[Study, Folder]:
         if self._study is None or self._folder is None:
-            raise InputError(f"this mesh was read from a file, and {what} are a study's: "
-                             "make it by Study.mesh()")
+            raise InputError(f"this mesh was read from a file and has no {what}; make it with "
+                             "Study.mesh()")
         return self._study.copy(), self._folder
 
     def __repr__(self) -> str:

@@ -30,14 +30,14 @@ class Model(HasSettings):
 
         Model({"solver": {"end_time": "1 s"}, "body": [{"name": "ground", "kind": "prescribed"}, ...]})
 
-    `flexneck keys model` tells all keys with their units. Raises InputError for what is not right.
+    `flexneck keys model` lists all keys with their units. Raises InputError for invalid input.
     """
 
     def __init__(self, model: Path | typing.Mapping[str, typing.Any],
                  settings: typing.Sequence[str] = (), folder: Path = ".",
                  name: str = "model") -> None:
         """settings: "key=value", as `--set` of the command line.
-        folder: of a dictionary: where the files are that it names. name: of its results."""
+        folder: for a dictionary: folder of the files that it refers to. name: name of its results."""
         self._text: str | None = None
         if isinstance(model, typing.Mapping):
             self._text = document_text(dict(model))
@@ -56,28 +56,27 @@ class Model(HasSettings):
         self._data = data
 
     def set(self, key: str, value: typing.Any) -> Model:
-        """Gives a key another value, as `--set key=value` of the command line does: see
+        """Sets the value of a key, as `--set key=value` of the command line does; see
         Study.set()."""
         self._set(key, value)
         return self
 
     def add_function(self, name: str, lower: str, upper: str, function: Function) -> Model:
-        """Adds a load between two markers that a function of Python gives, for prototypes: it is
-        called at every evaluation of the equations of motion and as often as solver.resolution
-        says, about ten microseconds each. A table [[function_force]] does the same by formulas, and
-        fast.
+        """Adds a load between two markers that is computed by a Python function, for prototypes.
+        It is called at every evaluation of the equations of motion, which takes about ten
+        microseconds each. A table [[function_force]] does the same with formulas, and is faster.
 
-        function: takes the time (s) and the motion of the marker `upper` seen from the moving frame
-            of the marker `lower`, in its axes: position (3,) m, velocity (3,) m/s, rotation (3, 3)
+        function: takes the time (s) and the motion of the marker `upper` relative to the moving
+            frame of the marker `lower`, in its axes: position (3,) m, velocity (3,) m/s, rotation (3, 3)
             upper's axes to lower's, and angular velocity (3,) rad/s. Returns the force (3,) N and
             the moment (3,) N m that act on upper's body at upper's origin, in lower's axes; the
-            opposite acts on lower's body at that point. It is called along each step, too, as
-            closely as solver.resolution, so that no longer feature is missed. What it raises ends
-            the run.
+            opposite acts on lower's body at that point. It is also called along each step, at
+            intervals of solver.resolution, so that no longer feature is missed. An exception
+            that it raises ends the run.
         Returns this model, which has changed.
         """
         if name in self._functions:
-            raise InputError(f"function_force '{name}': there is one of that name already")
+            raise InputError(f"function_force '{name}': there is already one with this name")
         if not callable(function):
             raise InputError(f"function_force '{name}': expected a function, found {function!r}")
         self._data.add_function(name, lower, upper, function)
@@ -87,8 +86,8 @@ class Model(HasSettings):
     def simulate(self, folder: Path | None = None) -> Run:
         """Runs the model, as `flexneck simulate` does.
 
-        folder: where its history and table are written; none: all is kept in memory.
-        Raises IncompleteRunError, with what was computed, for a run that cannot go on.
+        folder: folder for the history and the table; default: results are kept in memory.
+        Raises IncompleteRunError, with the results until then, if the run ends early.
         """
         name = pathlib.Path(self._path).stem
         if folder is not None:
@@ -103,21 +102,21 @@ class Model(HasSettings):
         return run
 
     def export(self, path: Path) -> None:
-        """Writes the model as an FMU 3.0 for co-simulation, whose file ends with .fmu, as
-        `flexneck export` does. Raises InputError for a model with a function of Python: such a load
-        has a [[function_force]] in its place."""
+        """Writes the model as an FMU 3.0 for co-simulation, with the extension .fmu, as `flexneck
+        export` does. Raises InputError for a model with a Python function; use a
+        [[function_force]] instead."""
         if pathlib.Path(path).suffix != ".fmu":
-            raise InputError(f"{path}: expected the ending .fmu, which is all that a model is exported to")
+            raise InputError(f"{path}: expected the extension .fmu, the only format for models")
         warn(self._data.export_fmu(str(path)))
 
     @property
     def file(self) -> str:
-        """The TOML file; of a dictionary the one that it stands for."""
+        """The TOML file; for a dictionary the path that it would have."""
         return self._path
 
     @property
     def text(self) -> str:
-        """The model as TOML, less settings and functions."""
+        """The model as TOML, without settings and functions."""
         return pathlib.Path(self._path).read_text() if self._text is None else self._text
 
     @property

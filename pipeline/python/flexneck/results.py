@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a folder of results holds."""
+"""Contents of a folder of results."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from .values import describe
 
 
 class Table(typing.Mapping[str, typing.List[typing.Any]]):
-    """A table of results, as the report shows it: columns by their names. Cells that are numbers
-    are floats, in the unit of their column; all others texts."""
+    """A table of results, as the report shows it: columns by name. Numeric cells are floats in the
+    unit of their column; all others are texts."""
 
     def __init__(self, name: str, title: str, columns: list[tuple[str, str]],
                  rows: list[list[str]], notes: list[str]) -> None:
@@ -26,22 +26,22 @@ class Table(typing.Mapping[str, typing.List[typing.Any]]):
 
     @property
     def name(self) -> str:
-        """By which programs find it, such as "peaks"."""
+        """Identifier of the table, such as "peaks"."""
         return self._name
 
     @property
     def title(self) -> str:
-        """For people."""
+        """Title of the table for readers."""
         return self._title
 
     @property
     def notes(self) -> list[str]:
-        """Sentences: origins, contradictions, warnings."""
+        """Notes on the table: origins, contradictions, warnings."""
         return list(self._notes)
 
     @property
     def units(self) -> dict[str, str]:
-        """Of columns that have one."""
+        """Units of the columns that have one."""
         return dict(self._units)
 
     def __getitem__(self, column: str) -> list[typing.Any]:
@@ -54,7 +54,7 @@ class Table(typing.Mapping[str, typing.List[typing.Any]]):
         return len(self._columns)
 
     def rows(self) -> list[dict[str, typing.Any]]:
-        """A dictionary for each row: column to cell."""
+        """One dictionary per row: column name to cell."""
         return [dict(zip(self._columns, row)) for row in zip(*self._columns.values())]
 
     def __repr__(self) -> str:
@@ -62,7 +62,7 @@ class Table(typing.Mapping[str, typing.List[typing.Any]]):
 
 
 class VerificationRow(typing.NamedTuple):
-    """A figure beside its reference."""
+    """A computed figure and its reference."""
 
     quantity: str
     detail: str
@@ -76,13 +76,13 @@ class VerificationRow(typing.NamedTuple):
 
 describe(
     VerificationRow,
-    quantity="Such as \"bending 1\".",
-    detail="Which mode, which method.",
-    computed="As printed.",
-    reference="Published as a rule.",
-    unit="Of both.",
-    error_percent="Per cent, of the computed one, where both are numbers.",
-    status="passed, failed, compared (there is no tolerance) or unjudged.",
+    quantity="Name of the figure, such as \"bending 1\".",
+    detail="Mode or method.",
+    computed="Computed value, as printed.",
+    reference="Reference value, usually published.",
+    unit="Unit of both values.",
+    error_percent="Deviation of the computed value, per cent, if both are numbers.",
+    status="passed, failed, compared (without tolerance) or unjudged (no verdict).",
     fitted="Whether the geometry was fitted to this figure.",
 )
 
@@ -97,17 +97,17 @@ class Results:
 
     @property
     def folder(self) -> pathlib.Path:
-        """Where the files are."""
+        """Folder of the files."""
         return self._folder.path
 
     @property
     def files(self) -> list[str]:
-        """Their names."""
+        """Names of the files."""
         return sorted(each.name for each in self._folder.path.iterdir() if each.is_file())
 
     @property
     def tables(self) -> dict[str, Table]:
-        """All tables of the folder's JSON files by their names."""
+        """All tables of the JSON files in the folder, by name."""
         found: dict[str, Table] = {}
         for file in sorted(self._folder.path.glob("*.json")):
             if _core.holds_tables(str(file)):
@@ -117,7 +117,7 @@ class Results:
 
     @property
     def verification(self) -> list[VerificationRow]:
-        """Figures beside published ones; empty if the study has no verification."""
+        """Computed figures compared with published ones; empty if the study has no verification."""
         file = self._folder.path / "verification.json"
         if not file.exists():
             return []

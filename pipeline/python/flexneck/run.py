@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs: time histories, in memory or of a file."""
+"""Runs: time histories, in memory or from a file."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if typing.TYPE_CHECKING:
 
 
 class Channel:
-    """A curve or a few of them at the times of a run. It is an array to NumPy: its values."""
+    """One or several curves at the output times of a run. NumPy treats it as the array `values`."""
 
     def __init__(self, name: str, unit: str, columns: list[str], filter: str,
                  values: Array) -> None:
@@ -30,12 +30,12 @@ class Channel:
 
     @property
     def name(self) -> str:
-        """Such as "head rotation"."""
+        """Name of the channel, such as "head rotation"."""
         return self._name
 
     @property
     def unit(self) -> str:
-        """Of `values`, SI."""
+        """SI unit of `values`."""
         return self._unit
 
     @property
@@ -45,12 +45,12 @@ class Channel:
 
     @property
     def filter(self) -> str:
-        """Such as "CFC 600"; empty for none."""
+        """Filter, such as "CFC 600"; empty for none."""
         return self._filter
 
     @property
     def values(self) -> Array:
-        """(n,) of one curve, (n, columns) of several, in `unit`; a view."""
+        """Values: (n,) for one curve, (n, columns) for several, in `unit`; a view."""
         return self._values[:, 0] if self._values.shape[1] == 1 else self._values
 
     def to(self, unit: str) -> Array:
@@ -69,7 +69,7 @@ class Channel:
 
 
 class MarkerMotion(typing.NamedTuple):
-    """Motion of a marker, a row for each time; views."""
+    """Motion of a marker, one row per time; views."""
 
     position: Array
     velocity: Array
@@ -81,18 +81,18 @@ class MarkerMotion(typing.NamedTuple):
 
 describe(
     MarkerMotion,
-    position="(n, 3), m, of its origin in the world.",
-    velocity="(n, 3), m/s, world.",
-    acceleration="(n, 3), m/s^2, world; kinematic: gravity is not subtracted.",
-    rotation="(n, 4), 1, unit quaternion marker to world: w, x, y, z.",
-    angular_velocity="(n, 3), rad/s, world.",
-    angular_acceleration="(n, 3), rad/s^2, world.",
+    position="Position of its origin, (n, 3), m, world.",
+    velocity="Velocity, (n, 3), m/s, world.",
+    acceleration="Acceleration, (n, 3), m/s^2, world; kinematic: gravity is not subtracted.",
+    rotation="Rotation, (n, 4), 1, unit quaternion from marker to world: w, x, y, z.",
+    angular_velocity="Angular velocity, (n, 3), rad/s, world.",
+    angular_acceleration="Angular acceleration, (n, 3), rad/s^2, world.",
 )
 
 
 class JointLoads(typing.NamedTuple):
-    """What the lower body exerts on the upper one through a joint, in the axes of the lower marker,
-    about the joint point; views."""
+    """Load that the lower body exerts on the upper one through a joint, in the axes of the lower
+    marker, about the joint point; views."""
 
     force: Array
     moment: Array
@@ -101,9 +101,9 @@ class JointLoads(typing.NamedTuple):
 
 describe(
     JointLoads,
-    force="(n, 3), N.",
-    moment="(n, 3), N m.",
-    undetermined="Components that redundant joints leave open; empty as a rule.",
+    force="Force, (n, 3), N.",
+    moment="Moment, (n, 3), N m.",
+    undetermined="Components that redundant joints leave undetermined; usually empty.",
 )
 
 
@@ -121,13 +121,13 @@ class SmallMotion(typing.NamedTuple):
 
 describe(
     SmallMotion,
-    frequency="|lambda| / 2 pi, Hz.",
-    damped_frequency="Hz; 0 of an overdamped one.",
-    damping_ratio="1.",
-    growth_rate="1/s; not 0 of an unstable one alone.",
-    kink="Which load has a kink there, if any.",
-    translation="(markers, 3), m, world; the largest is 1.",
-    rotation="(markers, 3), rad, likewise.",
+    frequency="Undamped frequency |lambda| / 2 pi, Hz.",
+    damped_frequency="Damped frequency, Hz; 0 for an overdamped mode.",
+    damping_ratio="Damping ratio, 1.",
+    growth_rate="Growth rate, 1/s; not 0 only for an unstable mode.",
+    kink="Load that has a kink at this state, if any.",
+    translation="Translations of the markers, (markers, 3), m, world; the largest is 1.",
+    rotation="Rotations of the markers, (markers, 3), rad, world; same scale.",
 )
 
 
@@ -140,8 +140,8 @@ class Run:
 
     @staticmethod
     def read(path: Path) -> Run:
-        """The run of a history file: pendulum-<case>.h5, static-<case>.h5 or what `flexneck
-        simulate` writes."""
+        """Reads a run from a history file: pendulum-<case>.h5, static-<case>.h5 or a file of
+        `flexneck simulate`."""
         file = pathlib.Path(path)
         run = Run(_core.read_run(str(path)), Folder(file.parent), file.stem)
         warn(run.warnings)
@@ -149,7 +149,7 @@ class Run:
 
     @property
     def name(self) -> str:
-        """Of its files, such as "pendulum-flexion-120"."""
+        """Name of its files, such as "pendulum-flexion-120"."""
         return self._name
 
     @property
@@ -163,7 +163,7 @@ class Run:
         return {name: Channel(name, *rest) for name, rest in self._data.channels.items()}
 
     def __getitem__(self, channel: str) -> Channel:
-        """A channel by its name. Raises KeyError, which lists them all."""
+        """A channel by its name. Raises KeyError, which lists all channels, for an unknown name."""
         found = self._data.channels.get(channel)
         if found is None:
             raise KeyError(f"there is no channel {channel!r}; there are: "
@@ -192,8 +192,8 @@ class Run:
 
     @property
     def energy(self) -> dict[str, Array]:
-        """Energies, (n,), J: kinetic, gravitational, strain, and since the start dissipated and
-        work. kinetic + gravitational + strain + dissipated - work stays the same; views."""
+        """Energies, (n,), J: kinetic, gravitational and strain, and dissipated and work since the
+        start. kinetic + gravitational + strain + dissipated - work is constant; views."""
         return dict(self._data.energy)
 
     @property
@@ -214,15 +214,15 @@ class Run:
 
     @property
     def statistics(self) -> dict[str, typing.Any]:
-        """What the run took: accepted and rejected steps, evaluations of the equations of motion,
-        largest_position_residual (m or rad) and largest_velocity_residual (per s), and limits: what
-        set the length of how many steps."""
+        """Statistics of the run: accepted and rejected steps, evaluations of the equations of motion,
+        largest_position_residual (m or rad) and largest_velocity_residual (per s), and limits: the
+        numbers of steps by what limited their size."""
         return dict(self._data.statistics)
 
     @property
     def linearisation(self) -> tuple[str, list[str], list[SmallMotion]] | None:
-        """About what the model was linearised, the names of its markers and the modes of small
-        motions; None if the model does not ask for them."""
+        """State about which the model was linearised, the names of its markers and the modes of small
+        motions; None if the model has no linearisation."""
         found = self._data.linearisation
         if found is None:
             return None
@@ -231,33 +231,33 @@ class Run:
 
     @property
     def values(self) -> dict[str, Value]:
-        """Every value that the run was made from, by its dotted key."""
+        """All input values of the run, by dotted key."""
         return {key: Value(*rest) for key, *rest in self._data.parameters}
 
     @property
     def incomplete(self) -> str:
-        """Why the run ended early; empty as a rule."""
+        """Reason why the run ended early; usually empty."""
         return str(self._data.incomplete)
 
     @property
     def warnings(self) -> list[str]:
-        """What of the results is not to be trusted."""
+        """Warnings about results that may be unreliable."""
         return list(self._data.warnings)
 
     def write(self, path: Path) -> None:
-        """Writes the history file that read() reads, the bytes of the command's."""
+        """Writes the history file that read() reads, identical to that of the command."""
         if self._folder is not None:
             shutil.copyfile(self._folder.file(self._name + ".h5"), path)
         else:
             self._data.write(str(path))
 
     def write_table(self, path: Path) -> None:
-        """Writes the channels as comma-separated values in SI units, a line for each time."""
+        """Writes the channels as comma-separated values in SI units, one line per time."""
         self._data.write_table(str(path))
 
     def export(self, path: Path) -> None:
-        """Writes the run in the format of the file's ending, as `flexneck export` does: .mme
-        (ISO-MME), .pvd (ParaView) or .csv."""
+        """Writes the run in the format given by the extension of the file, as `flexneck export` does:
+        .mme (ISO-MME), .pvd (ParaView) or .csv."""
         folder = self._folder
         if folder is None:
             folder = Folder(None)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Settings of a file, as `--set key=value` of the command line."""
+"""Settings of a file, like `--set key=value` of the command line."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from .toml_text import setting
 
 
 def checked(settings: typing.Sequence[str]) -> list[str]:
-    """A list of "key=value", not one of them alone."""
+    """Checks that the settings are a list of "key=value", not a single text."""
     if isinstance(settings, str) or not all(isinstance(each, str) for each in settings):
         raise InputError(f'settings: expected a list such as ["modes.count=6"], found {settings!r}')
     return list(settings)
 
 
 class HasSettings:
-    """A file that is read with settings, and read anew with others."""
+    """A file that is read with settings, and read again if they change."""
 
     _settings: list[str]
 

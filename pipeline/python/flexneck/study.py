@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Studies: everything that the neck, its modes and its experiments are made from."""
+"""Studies: the inputs of the neck, its modes and its experiments."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from .values import Value
 
 
 def shipped_names() -> list[str]:
-    """The names of the studies and models that come with flexneck, such as "hybrid3"."""
+    """Names of the studies and models that are shipped with flexneck, such as "hybrid3"."""
     return list(_core.shipped_names())
 
 
 class Study(HasSettings):
     """A study: a shipped one by its name ("hybrid3", the default), or a TOML file.
 
-    Raises InputError with file, line and key for what is not right in it. `flexneck keys study`
-    tells all keys with their units.
+    Raises InputError with file, line and key for invalid input. `flexneck keys study` lists all
+    keys with their units.
     """
 
     def __init__(self, study: Path = "hybrid3", settings: typing.Sequence[str] = ()) -> None:
@@ -38,18 +38,18 @@ class Study(HasSettings):
         self._content = _core.study(self._file, self._settings)
 
     def set(self, key: str, value: typing.Any) -> Study:
-        """Gives a key another value, as `--set key=value` of the command line does.
+        """Sets the value of a key, as `--set key=value` of the command line does.
 
         key: dotted, such as "geometry.plate_thickness" or "case.flexion-60.duration".
         value: a text with its unit ("0.4 in"), a number, True or False, or a list.
-        Returns this study, which has changed. Raises InputError, and leaves it as it was, for a key
-        that there is not or a value that it cannot have.
+        Returns this study, which has changed. Raises InputError for an unknown key or an invalid
+        value, and leaves the study unchanged.
         """
         self._set(key, value)
         return self
 
     def copy(self) -> Study:
-        """Another study of the same values, which can be set apart from this one."""
+        """A copy of this study, whose values can be set independently."""
         other = copy.copy(self)
         other._settings = list(self._settings)
         return other
@@ -61,27 +61,27 @@ class Study(HasSettings):
 
     @property
     def settings(self) -> list[str]:
-        """What was set: "key=value"."""
+        """Settings of the study, as "key=value"."""
         return list(self._settings)
 
     @property
     def values(self) -> dict[str, Value]:
-        """Every value that the study gives, by its dotted key."""
+        """All values that the study gives, by dotted key."""
         return {key: Value(*rest) for key, *rest in self._content["values"]}
 
     @property
     def defaults(self) -> dict[str, Value]:
-        """What holds for keys that the study does not give."""
+        """Default values of the keys that the study does not give."""
         return {key: Value(*rest) for key, *rest in self._content["defaults"]}
 
     @property
     def cases(self) -> dict[str, str]:
-        """The experiments by their names: "pendulum" or "static"."""
+        """Kinds of the cases by name: "pendulum" or "static"."""
         return dict(self._content["cases"])
 
     @property
     def tests(self) -> list[str]:
-        """The certification tests that its cases are judged by."""
+        """Names of the certification tests of its cases."""
         return list(self._content["tests"])
 
     def mesh(self, folder: Path | None = None) -> Mesh:
@@ -94,28 +94,28 @@ class Study(HasSettings):
         return Mesh(_core.read_mesh(place.file("mesh.h5")), self, place)
 
     def run(self, folder: Path | None = None, redo: bool = False) -> Results:
-        """Mesh, modes, pictures, experiments, verification and report, as `flexneck run` does. A
-        folder that has some of it is brought up to date; redo: all of it is done anew."""
+        """Runs mesh, modes, pictures, experiments, verification and report, as `flexneck run` does. Only
+        outdated results in the folder are computed again; redo: all are computed again."""
         return self._done("run", folder, redo=redo)
 
     def qualify(self, folder: Path | None = None, redo: bool = False) -> Results:
-        """The neck's certification test, as `flexneck qualify` does: all of run(), and every figure
-        of the verdicts. For a study with tests, such as "hybrid3_qualification"."""
+        """Runs the certification test of the neck, as `flexneck qualify` does: all of run(), with
+        every figure of the verdicts. For a study with tests, such as "hybrid3_qualification"."""
         return self._done("qualify", folder, redo=redo)
 
     def sweep(self, folder: Path, threads: int = 0) -> Results:
-        """Many values of some keys, and what becomes of them: the study's [sweep], as `flexneck
-        sweep` does. Rows are kept as they come: after Ctrl-C the same call goes on with the rest.
+        """Runs the parameter sweep defined in [sweep] of the study, as `flexneck sweep` does.
+        Completed rows are kept: after Ctrl-C the same call continues with the rest.
 
-        threads: that compute rows; 0: all processors.
+        threads: maximum number of threads; 0: all cores.
         """
         return self._done("sweep", folder, threads=threads)
 
     def fit(self, folder: Path, threads: int = 0) -> Results:
-        """Free values that bring results to targets: the study's [fit], as `flexneck fit` does.
-        What is done is kept: after Ctrl-C the same call goes on with the rest.
+        """Fits parameters to targets, as defined in [fit] of the study, as `flexneck fit` does.
+        Completed fits are kept: after Ctrl-C the same call continues with the rest.
 
-        threads: that compute; 0: all processors.
+        threads: maximum number of threads; 0: all cores.
         """
         return self._done("fit", folder, threads=threads)
 

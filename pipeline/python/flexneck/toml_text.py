@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""TOML of Python's values, for models that are built in code."""
+"""Conversion of Python values to TOML, for models that are built in code."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .errors import InputError
 
 
 def value_text(value: typing.Any, key: str) -> str:
-    """A value as TOML has it; arrays and numbers of NumPy, too."""
+    """A value as TOML text; also for arrays and numbers of NumPy."""
     if hasattr(value, "tolist"):
         value = value.tolist()
     if isinstance(value, bool):
@@ -30,7 +30,7 @@ def value_text(value: typing.Any, key: str) -> str:
 
 
 def document_text(tables: dict[str, typing.Any]) -> str:
-    """A document: values first, then tables, then lists of tables with a heading each."""
+    """A TOML document: first values, then tables, then arrays of tables."""
     lines = [f"{_name(name)} = {value_text(value, name)}" for name, value in tables.items()
              if not _is_section(value)]
     for name, value in tables.items():

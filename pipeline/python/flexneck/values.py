@@ -7,7 +7,7 @@ import typing
 
 
 def describe(fields_of: type, **texts: str) -> None:
-    """Gives the fields of a named tuple the texts that help() shows."""
+    """Sets the texts that help() shows for the fields of a named tuple."""
     for name, text in texts.items():
         getattr(fields_of, name).__doc__ = text
 
@@ -22,7 +22,7 @@ class Value(typing.NamedTuple):
 
 describe(
     Value,
-    text="Such as \"0.4 in\".",
-    origin="published, inferred, calibrated or synthetic.",
+    text="Value with its unit, such as \"0.4 in\".",
+    origin="Origin: published, inferred, calibrated or synthetic.",
     note="Source or reason; may be empty.",
 )

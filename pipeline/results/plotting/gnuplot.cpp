@@ -56,8 +56,7 @@ void run_gnuplot(const std::filesystem::path& folder, const std::string& script_
   }
   if (failure == ENOENT) {
     throw InputError(
-        "report: gnuplot draws the figures and is missing; install the package "
-        "gnuplot-nox");
+        "report: gnuplot, which draws the figures, was not found; install the package gnuplot-nox");
   }
   int status = 0;
   if (failure != 0)

@@ -83,11 +83,12 @@ std::vector<std::string> pulse_remarks(const Study& study) {
       outside += (outside.empty() ? "" : " and of ") + name;
     }
     std::string text = "The pulse '" + pulse->name + "' is " +
-                       origins_of(study.parameters, "pulse." + pulse->name) + " by the study";
-    if (!inside.empty()) text += " and, as given there, inside the corridor of " + inside;
+                       origins_of(study.parameters, "pulse." + pulse->name) +
+                       " according to the study";
+    if (!inside.empty()) text += " and, without scaling, inside the corridor of " + inside;
     if (inside.empty() && !outside.empty())
-      text += " and, as given there, outside of the corridor of " + outside;
-    remarks.push_back(text + ". The table of velocities tells how cases scale it.");
+      text += " and, without scaling, outside the corridor of " + outside;
+    remarks.push_back(text + ". The table of velocities shows how the cases scale it.");
   }
   return remarks;
 }

@@ -74,7 +74,7 @@ class Drawing {
                            point.chi_squared - result_.best().chi_squared);
     }
     begin_panels("fit-profiles", csv, count);
-    script_ += "set yrange [-0.5:8]\nset ylabel 'chi-squared less its least'\n";
+    script_ += "set yrange [-0.5:8]\nset ylabel 'chi-squared minus its minimum'\n";
     for (int k = 0; k < count; ++k)
       script_ += fmt::format(
           "set xlabel {}\nplot 'fit-profiles.csv' using ($1=={}?$2:NaN):3 with points pt 7 ps 0.5 "

@@ -100,14 +100,15 @@ std::string verification_summary(const VerificationTable& table) {
   const bool is_fitted = std::any_of(table.rows.begin(), table.rows.end(),
                                      [](const VerificationRow& row) { return row.fitted; });
   if (passed + failed == 0)
-    return "Nothing is judged: dimensions or materials are the user's own (synthetic).";
-  std::string text = failed == 0 ? fmt::format("All {} figures that are judged agree.", passed)
-                                 : fmt::format("{} of the {} figures that are judged do not agree.",
+    return "No figure has a verdict, since dimensions or materials are those of the user "
+           "(synthetic).";
+  std::string text = failed == 0 ? fmt::format("All {} figures with a verdict agree.", passed)
+                                 : fmt::format("{} of the {} figures with a verdict do not agree.",
                                                failed, passed + failed);
   if (is_fitted) {
     text +=
-        " Where it says fitted, the dimensions were fitted to that figure: agreement there shows "
-        "that the fit was done well, not that the model predicts.";
+        " The dimensions were fitted to the figures marked as fitted: agreement there shows the "
+        "quality of the fit, not the predictive ability of the model.";
   }
   return text;
 }
@@ -187,7 +188,8 @@ std::string certification_html(const Results& results, const Study& study) {
     html += html_of(table) + html_list(result.notes);
   }
   if (!html.empty() || study.tests.empty()) return html;
-  return note("There are no verdicts in this folder yet; <code>flexneck verify</code> makes them.");
+  return note(
+      "There are no verdicts in this folder yet; <code>flexneck verify</code> creates them.");
 }
 
 std::string tables_html(const Results& results, const Study& study) {
@@ -258,7 +260,7 @@ std::string modes_html(const Results& results) {
   }
   if (!body.mesh_error_limits.empty())
     html +=
-        "<dt>Errors of the mesh</dt><dd>an indication alone: " + html_text(body.mesh_error_limits) +
+        "<dt>Discretisation errors</dt><dd>only indicative: " + html_text(body.mesh_error_limits) +
         "</dd>\n";
   return html + "</dl>\n" + html_of(mode_table_of(body));
 }
@@ -317,7 +319,7 @@ std::string provenance_html(const Results& results, const Study& study) {
 }
 
 std::string missing_html(const Results& results) {
-  if (results.missing.empty()) return note("Nothing that the study asks for is missing.");
+  if (results.missing.empty()) return note("All results that the study requests are on this page.");
   return "<p>Not on this page:</p>\n" + html_list(results.missing);
 }
 

@@ -8,7 +8,7 @@ namespace flexneck::pipeline {
 namespace {
 
 constexpr Key kKeys[] = {
-    Key::texts("remarks", kRequired, "What the report says of the paper"),
+    Key::texts("remarks", kRequired, "Remarks on the paper that the report shows"),
 };
 
 }  // namespace

@@ -27,7 +27,7 @@ constexpr std::array<PictureKind, 3> kSweepKinds = {
 constexpr std::array<PictureKind, 4> kFitKinds = {
     {{"fit-targets", "Distances of the best fit from its targets"},
      {"fit-curve-", "Target and fit: "},
-     {"fit-profiles", "Chi-squared over each parameter, the others fitted anew"},
+     {"fit-profiles", "Chi-squared over each parameter, with the others fitted again"},
      {"fit-history", "Points of the prior, and those that meet all targets"}}};
 
 std::string picture(const fs::path& path, const std::string& caption,

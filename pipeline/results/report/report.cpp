@@ -40,8 +40,8 @@ constexpr std::array<PageSection, 14> kSections = {
      {"fit", "Fit", "Parameters fitted to targets", "fit"},
      {"figures", "Figures", "The paper's figures", "figures"},
      {"modes", "Modes", "Modes and their checks", "modes"},
-     {"sensitivities", "Sensitivities", "What each input does", "sensitivities"},
-     {"remarks", "The paper", "Where the paper contradicts itself or is silent", "remarks"},
+     {"sensitivities", "Sensitivities", "Sensitivities to the inputs", "sensitivities"},
+     {"remarks", "The paper", "Contradictions and gaps in the paper", "remarks"},
      {"inputs", "Inputs", "Inputs and their origin", "parameters"},
      {"provenance", "Provenance", "Provenance", "provenance"}}};
 

@@ -133,8 +133,8 @@ class Reader {
     for (const auto& [source, names] : left_out_) {
       const auto shown = static_cast<std::ptrdiff_t>(std::min(kShown, names.size()));
       results_.warnings.push_back(fmt::format(
-          "{} of this folder, not made from the {} in it, {} left out: {}{}; "
-          "'flexneck run' makes all of one study.",
+          "{} of this folder, not made from the current {}, {} omitted: {}{}; 'flexneck run' makes "
+          "all results consistent.",
           names.size() == 1 ? "A file" : fmt::format("{} files", names.size()), source,
           names.size() == 1 ? "is" : "are", fmt::join(names.begin(), names.begin() + shown, ", "),
           names.size() > kShown ? ", …" : ""));
@@ -174,7 +174,7 @@ class Reader {
 
   void miss(const std::string& name, const std::string& what, const std::string& command) {
     results_.missing.push_back(
-        fmt::format("{}, {}, is not in this folder; '{}' makes it.", name, what, command));
+        fmt::format("{}, {}, is not in this folder; '{}' creates it.", name, what, command));
   }
 
   void add_warnings(const std::string& name, const multibody::History& history) {
@@ -245,11 +245,11 @@ void refuse_without_results(const fs::path& folder) {
   });
   if (run != names.end())
     throw InputError(folder.string() +
-                     ": holds runs of models, which have no page; 'flexneck info " +
-                     (folder / *run).string() + "' shows one, and its curves are in " +
+                     ": contains runs of models, for which there is no page; 'flexneck info " +
+                     (folder / *run).string() + "' describes one of them, and its curves are in " +
                      fs::path(*run).replace_extension(".csv").string());
-  throw InputError(folder.string() + ": holds no results; 'flexneck run -o " + folder.string() +
-                   "' makes those of the built-in study");
+  throw InputError(folder.string() + ": contains no results; 'flexneck run -o " + folder.string() +
+                   "' creates those of the built-in study");
 }
 
 const Experiment* Results::find(Experiment::Kind kind, const std::string& name) const {

@@ -63,12 +63,12 @@ void write_campbell_table(const std::filesystem::path& path,
 
 void draw_campbell(const std::filesystem::path& path, const multibody::CampbellDiagram& diagram) {
   const VectorXd rates = rates_of(diagram);
-  CurvePlot plot{"rate [rad/s]", "frequency seen from the bodies that turn [Hz]", {}};
+  CurvePlot plot{"rate [rad/s]", "frequency in the rotating frame [Hz]", {}};
   plot.note = "";
   for (std::size_t k = 0; k < diagram.modes.size(); ++k)
     plot.curves.push_back(
         {name_of(k), rates, over_rates(diagram.modes[k], &SystemMode::frequency_Hz)});
-  plot.curves.push_back({"one per turn", rates, rates / (2 * std::numbers::pi)});
+  plot.curves.push_back({"one per revolution", rates, rates / (2 * std::numbers::pi)});
   Figure figure;
   draw_curves(plot, figure);
   const TemporaryFolder workshop;

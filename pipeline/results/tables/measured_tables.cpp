@@ -70,8 +70,8 @@ std::string filter_difference(const MeasuredRun& run, const MeasuredCurve& measu
   const auto text = [](std::string_view name) {
     return name.empty() ? std::string("no filter") : std::string(name);
   };
-  return where(run.test) + "'" + measured.channel + "' has passed " + text(filter.text) +
-         " as measured, " + text(computed) + " as computed.";
+  return where(run.test) + "'" + measured.channel + "' is filtered with " + text(filter.text) +
+         " in the measurement and with " + text(computed) + " in the computation.";
 }
 
 /// Value interpolated linearly between the samples of a curve that covers the time.
@@ -187,8 +187,8 @@ std::vector<std::string> limit_row(const MeasuredRun& run, const MeasuredLimit& 
 void note_missing_runs(const std::vector<MeasuredRun>& runs, ResultTable& table) {
   for (const MeasuredRun& run : runs)
     if (!run.run)
-      table.notes.push_back("There is no run of " + run.test.experiment + " yet, which test '" +
-                            run.test.name + "' is on.");
+      table.notes.push_back("There is no run of " + run.test.experiment + " yet, on which test '" +
+                            run.test.name + "' is based.");
 }
 
 }  // namespace
@@ -216,8 +216,9 @@ ResultTable measured_curve_table(const std::vector<MeasuredRun>& runs) {
     }
   note_missing_runs(runs, table);
   table.notes.emplace_back(
-      "1 is full agreement. The parts of each rating: 'flexneck rate MEASURED.csv COMPUTED.csv'. "
-      "Agreement shows a good model only where the curve was not used to choose its parameters.");
+      "1 is full agreement. 'flexneck rate MEASURED.csv COMPUTED.csv' prints the parts of each "
+      "rating. Agreement shows a good model only if the curve was not used to choose its "
+      "parameters.");
   return table;
 }
 

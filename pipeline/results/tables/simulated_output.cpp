@@ -67,7 +67,7 @@ void SimulatedOutput::require_room(const Block& first) const {
   const auto shown = static_cast<double>(1 + rows_of(first.channels));
   const auto stored = static_cast<double>(multibody::numbers_per_output(first.history)) + shown;
   const std::string what = "the history of " + std::to_string(outputs_) + " outputs";
-  const std::string advice = "make the output interval longer or choose markers, joints, channels";
+  const std::string advice = "increase the output interval, or choose markers, joints or channels";
   require_disk(path_.parent_path(), what,
                outputs * (sizeof(double) * stored + kTextOfNumber * shown), advice);
   if (has_filters_)

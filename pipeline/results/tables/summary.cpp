@@ -20,27 +20,29 @@ std::string run_summary(const multibody::History& history) {
   // Joint coordinates have no constraints.
   if (steps.max_position_residual > 0 || steps.max_velocity_residual > 0)
     text += fmt::format(
-        "\n  constraints hold to {:.1e} in position (m, rad) and {:.1e} in velocity (per s)",
+        "\n  largest constraint errors: {:.1e} in position (m, rad) and {:.1e} in velocity (per s)",
         steps.max_position_residual, steps.max_velocity_residual);
   if (history.freedoms >= 0)
-    text += fmt::format("\n  {} degrees of freedom at the start; velocities less constraints: {}",
+    text += fmt::format("\n  {} degrees of freedom at the start; velocities minus constraints: {}",
                         history.freedoms,
                         history.freedoms - static_cast<int>(history.redundant_constraints.size()));
   if (!history.redundant_constraints.empty()) {
-    text += fmt::format("\n  {} constraints say what others hold already and were left out:",
+    text += fmt::format("\n  {} redundant constraints were omitted:",
                         history.redundant_constraints.size());
     for (const std::string& row : history.redundant_constraints) text += "\n    " + row;
   }
   for (const multibody::JointHistory& joint : history.joints)
     if (!joint.undetermined.empty())
-      text += "\n  open in the reaction of joint '" + joint.name + "': " + joint.undetermined;
+      text +=
+          "\n  undetermined in the reaction of joint '" + joint.name + "': " + joint.undetermined;
   if (!history.incomplete.empty()) text += "\n  INCOMPLETE: " + history.incomplete;
   return text;
 }
 
 std::string mode_summary(const multibody::LinearisationRecord& linearisation) {
-  std::vector<std::vector<std::string>> rows = {
-      {"mode about " + linearisation.about, "Hz", "damped Hz", "damping", "moves most", "along"}};
+  std::vector<std::vector<std::string>> rows = {{"mode about " + linearisation.about, "Hz",
+                                                 "damped Hz", "damping", "largest motion",
+                                                 "along"}};
   for (const multibody::ModeShape& each : linearisation.modes) {
     std::vector<std::string> row = {std::to_string(rows.size()),
                                     fmt::format("{:.5g}", each.mode.frequency_Hz),

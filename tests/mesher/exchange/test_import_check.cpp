@@ -47,38 +47,38 @@ TEST_CASE("elements on the nodes of others are counted and placed") {
                mesh.blocks.push_back(mesh.blocks[0]);
                mesh.blocks.back().part = "copy";
              }),
-             Contains("1 elements lie on the nodes of others") &&
-                 Contains("part 'copy' round (0.5, 0.5, 1.5) m"));
+             Contains("1 elements have the same nodes as others") &&
+                 Contains("part 'copy' near (0.5, 0.5, 1.5) m"));
 }
 
 TEST_CASE("nodes in the place of others are counted, within rounding and no further") {
   const auto shifted = [](double up_m) {
     return [up_m](Mesh& mesh) { append_copy(mesh, 0, up_m); };
   };
-  CHECK_THAT(refusal(shifted(0)), Contains("27 nodes lie in the place of others") &&
-                                      Contains("coincident_nodes = \"keep\""));
+  CHECK_THAT(refusal(shifted(0)),
+             Contains("27 nodes coincide with others") && Contains("coincident_nodes = \"keep\""));
   CHECK_THAT(refusal(shifted(1e-9)), Contains("27 nodes"));
   CHECK_THAT(refusal(shifted(1)), Contains("9 nodes") && Contains("2) m"));  // one face
-  CHECK_THAT(refusal(shifted(1 + 1e-6)), Contains("falls apart"));
+  CHECK_THAT(refusal(shifted(1 + 1e-6)), Contains("unconnected pieces"));
 }
 
 TEST_CASE("pieces that share no node are counted, also where doubles are kept") {
-  CHECK_THAT(
-      refusal([](Mesh& mesh) { append_copy(mesh, 0, 1); }, true),
-      Contains("falls apart into 2 pieces") && Contains("part 'copy' round (0.5, 0.5, 2.5) m"));
+  CHECK_THAT(refusal([](Mesh& mesh) { append_copy(mesh, 0, 1); }, true),
+             Contains("consists of 2 unconnected pieces") &&
+                 Contains("part 'copy' near (0.5, 0.5, 2.5) m"));
   CHECK_THAT(refusal([](Mesh& mesh) {
                append_copy(mesh, 0, 3);
                mesh.blocks.back().part = "one";
                append_copy(mesh, 0, 6);
              }),
-             Contains("falls apart into 3 pieces"));
+             Contains("consists of 3 unconnected pieces"));
 }
 
 TEST_CASE("inverted elements are counted by part, and a mirror image is told as such") {
   CHECK_THAT(refusal([](Mesh& mesh) {
                for (auto& node : mesh.nodes) node[0] = -node[0];
              }),
-             Contains("part 'upper': 1 of 1 elements (hex27)") && Contains("mirror image"));
+             Contains("part 'upper': 1 of 1 elements (hex27)") && Contains("the mesh is mirrored"));
   CHECK_THAT(refusal([](Mesh& mesh) {
                mesh.blocks[1].nodes.insert(mesh.blocks[1].nodes.end(), mesh.blocks[0].nodes.begin(),
                                            mesh.blocks[0].nodes.end());

@@ -148,7 +148,7 @@ TEST_CASE("a C3D20R is taken as it is where the modes are of reduced integration
   const std::string deck = inp_of(manual()[1]) +
                            "*Material, name=m\n*Elastic\n1., .3\n*Density\n1.\n"
                            "*Solid section, elset=only, material=m\n";
-  CHECK_THAT(warning_of_deck(deck), Contains("1 integrations of C3D20R"));
+  CHECK_THAT(warning_of_deck(deck), Contains("1 integration rules of C3D20R"));
   CHECK(warning_of_deck(deck, true).empty());
 }
 

@@ -62,8 +62,7 @@ std::string nastran_refusal(const std::string& bdf) {
 TEST_CASE(
     "cards of a .bdf that a mesh cannot hold are counted in one line, in every field format") {
   CHECK(warning_of(deck("MAT1,1,2.+11,,.3,7850.\nPSOLID,1,1\nEIGRL,1,,,6\n$ CONM2,1\n")).empty());
-  CHECK_THAT(
-      warning_without(deck(R"(CONM2         21       9               5.0
+  CHECK_THAT(warning_without(deck(R"(CONM2         21       9               5.0
 CONM2,22,10,,5.
 SPC1,1,123,1,2,3,4
 RBE2          23       9  123456      10      11      12       1       2+
@@ -81,11 +80,11 @@ GRID,30,,3.,3.,3.,,3
 PARAM,WTMASS,.00259
 PARAM,POST,-1
 )"),
-                      {"CQUAD4", "RBE3"}),
-      EndsWith("deck.bdf: not carried over: 1 CQUAD4, 1 FORCE, 1 MPC of sets that are not "
-               "selected, 1 PLOAD4, 1 RBE3, 1 nodes of no solid element, 1 supports of nodes "
-               "of no solid element; PARAM,WTMASS .00259: the deck's densities are weights, "
-               "the study needs masses\n"));
+                             {"CQUAD4", "RBE3"}),
+             EndsWith("deck.bdf: not carried over: 1 CQUAD4, 1 FORCE, 1 MPC of sets that are not "
+                      "selected, 1 PLOAD4, 1 RBE3, 1 nodes of no solid element, 1 supports of "
+                      "nodes of no solid element; PARAM,WTMASS .00259: the densities of the deck "
+                      "are weight densities, the study needs mass densities\n"));
 }
 
 TEST_CASE("a .bdf that gmsh would read as another structure is refused with its line") {
@@ -93,7 +92,7 @@ TEST_CASE("a .bdf that gmsh would read as another structure is refused with its 
              Contains("deck.bdf: line 21: GRID: coordinates in system 2 are not supported"));
   CHECK_THAT(nastran_refusal(deck("GRDSET,,2\n")), Contains("GRDSET: coordinates in system 2"));
   CHECK_THAT(nastran_refusal(deck("INCLUDE 'more.bdf'\n")),
-             Contains("other files are not followed"));
+             Contains("is not supported; write the deck as a single file"));
   CHECK_THAT(nastran_refusal(deck("GRID,30,,0.,0.,3.\n=,*(1),=,*(1.),==\n=3\n")),
              Contains("line 22: =: replicated cards"));
   CHECK_THAT(nastran_refusal(deck("GRID\t30\t\t0.\t0.\t3.\n")),
@@ -150,7 +149,8 @@ TEST_CASE("cards that change the structure are refused unless the study names th
     options.leave_out = {name};
     CHECK_THAT(testing::warnings_of(options), EndsWith("not carried over: 1 " + name + "\n"));
     options.leave_out.push_back("CGAP");
-    CHECK_THAT(testing::refusal(options), Contains("names 'CGAP', but nothing of that kind"));
+    CHECK_THAT(testing::refusal(options),
+               Contains("names 'CGAP', but the file has no unsupported cards of that kind"));
   }
 }
 
@@ -163,12 +163,13 @@ TEST_CASE("restraints, springs and shells of a .unv are counted, and its unit is
       "         1         2         3         4\n";
   CHECK(unv_warning_of(unv()).empty());
   CHECK(unv_warning_of(unv(shell) + data_set(164, " 1 SI 2\n 1.0D+00 1.0D+00 1.0D+00\n")).empty());
-  CHECK_THAT(unv_warning_of(unv(spring + shell) + data_set(755, " 1\n") + data_set(755, " 2\n") +
-                            data_set(2437, " 2 1\n") +
-                            data_set(164, " 5 mm 2\n 1.0D+03 1.0D+03 1.0D+00\n")),
-             EndsWith("cube.unv: not carried over: 2 data set 755, 1 elements of descriptor 136, 1 "
-                      "shells; data set 164 says that lengths count 1000 to the metre, the "
-                      "study's unit 1\n"));
+  CHECK_THAT(
+      unv_warning_of(unv(spring + shell) + data_set(755, " 1\n") + data_set(755, " 2\n") +
+                     data_set(2437, " 2 1\n") +
+                     data_set(164, " 5 mm 2\n 1.0D+03 1.0D+03 1.0D+00\n")),
+      EndsWith(
+          "cube.unv: not carried over: 2 data set 755, 1 elements of descriptor 136, 1 shells; "
+          "data set 164 gives 1000 length units per metre, but the unit of the study is 1\n"));
 }
 
 TEST_CASE("groups of a .unv are parts, face sets and node sets, whichever data set has them") {
@@ -258,8 +259,8 @@ TEST_CASE("what a .msh has beside its solids is counted: curves and surfaces, no
     return import_options(files.write("more.msh", text), {"corner"});
   };
   CHECK_THAT(testing::warnings_of(options_of_msh(text_of("9 2 8 4 1 3 2 7 6 5\n"))),
-             EndsWith("more.msh: not carried over: 1 elements of type 'Line 2' off the solids, 1 "
-                      "elements of type 'Triangle 3' off the solids\n"));
+             EndsWith("more.msh: not carried over: 1 elements of type 'Line 2' that are not part "
+                      "of solids, 1 elements of type 'Triangle 3' that are not part of solids\n"));
   CHECK_THAT(testing::refusal(options_of_msh(text_of("11 2 0 2 1 2 3 4 5 6 7 8 9 10\n"))),
              Contains("volume 2 belongs to 0 physical volumes, expected one"));
   CHECK_THAT(testing::warnings_of(options_of_msh(R"($MeshFormat
@@ -305,7 +306,7 @@ $Elements
 1 1 2 3 4 5 6 7 8 9 10
 $EndElements
 )")),
-             EndsWith("more.msh: not carried over: 1 nodes of no element\n"));
+             EndsWith("more.msh: not carried over: 1 nodes that belong to no element\n"));
 }
 
 }  // namespace flexneck::mesher

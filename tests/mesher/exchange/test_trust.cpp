@@ -80,7 +80,7 @@ TEST_CASE("a script under the name of a mesh is refused and does not run") {
   for (const auto& [name, contents] : hostile) {
     INFO(name);
     CHECK_THAT(testing::refusal(testing::import_options(files.write(name, contents), {"corner"})),
-               Contains(name) && Contains("this is no "));
+               Contains(name) && Contains("not a valid "));
     CHECK_FALSE(payload.has_run());
   }
 }
@@ -108,7 +108,7 @@ TEST_CASE("a .msh in bytes that ends within its header is refused") {
   const std::string one("\1\0\0\0", 4);
   for (const std::string& rest : {one, one + "\n", one + "\n$EndMeshFormat\n"}) {
     const auto file = files.write("cut.msh", "$MeshFormat\n4.1 1 8\n" + rest);
-    CHECK_THROWS_WITH(checked_contents(file), Contains("cut.msh: this is no .msh file"));
+    CHECK_THROWS_WITH(checked_contents(file), Contains("cut.msh: not a valid .msh file"));
   }
 }
 
@@ -144,9 +144,9 @@ TEST_CASE("the copy that gmsh gets lies alone under a name of ours and goes afte
 TEST_CASE("scripts, unknown endings and files that are none are refused") {
   const Files files;
   CHECK_THAT(testing::refusal(testing::import_options(files.write("a.geo", ""), {})),
-             Contains("is a script") && Contains("key script"));
+             Contains("is a gmsh script") && Contains("key script"));
   CHECK_THAT(testing::refusal(testing::import_options(files.write("a.stl", ""), {})),
-             Contains("expected a file with one of the endings .msh"));
+             Contains("expected a file with one of the extensions .msh"));
   CHECK_THAT(testing::refusal(testing::import_options(files / "none.msh", {})),
              Contains("none.msh: no such file"));
   CHECK_THAT(testing::refusal(testing::import_options(files.write("empty.msh", ""), {})),
@@ -154,7 +154,7 @@ TEST_CASE("scripts, unknown endings and files that are none are refused") {
   const std::string mesh = kTetrahedronMsh;
   CHECK_THAT(testing::refusal(testing::import_options(
                  files.write("cut.msh", mesh.substr(0, mesh.size() / 2)), {})),
-             Contains("section $Nodes has no end: the file is truncated"));
+             Contains("section $Nodes has no end; the file is truncated"));
 }
 
 }  // namespace flexneck::mesher

@@ -216,7 +216,7 @@ class ForeignFiles(unittest.TestCase):
             write_modes(self.folder / "modes.h5")
             with h5py.File(self.folder / "modes.h5", "a") as file:
                 file.create_dataset("basis/solver", data=texts, dtype=TEXT)
-            self.assertIn("/basis/solver: expected one text",
+            self.assertIn("/basis/solver: expected a single text",
                           self.flexneck("info", "modes.h5", code=2))
 
 

@@ -114,11 +114,10 @@ TEST_CASE("unusable arguments and studies end with one line, exit code 2 and no 
                 "broken.toml:1:10:");
   for (const char* const name : {"my.inp", "my.BDF", "my.step", "my.msh", "my.unv"}) {
     std::ofstream(folder / name) << "*NODE\n";
-    check_refused(
-        run_flexneck("run " + (folder / name).string() + out),
-        std::string("found a mesh or shape by the ending of its name; write a study, such "
-                    "as my.toml, with file = \"") +
-            name + "\" in [geometry]");
+    check_refused(run_flexneck("run " + (folder / name).string() + out),
+                  std::string("found a mesh or shape file, by its extension; write a study, such "
+                              "as my.toml, with file = \"") +
+                      name + "\" in [geometry]");
   }
   check_refused(run_flexneck("simulate " + (folder / "my.inp").string() + out),
                 "file = \"my.inp\"");
@@ -142,14 +141,14 @@ TEST_CASE("giants are refused before they start, with what they take and what th
     return testing::run_shell("ulimit -v 4000000; " + std::string(FLEXNECK_BINARY_DIR) +
                               "/flexneck " + arguments + out);
   };
-  check_refused(run_within_4_GB("mesh --refine 30"), "a mesh of about 2.15e+08 nodes takes about");
+  check_refused(run_within_4_GB("mesh --refine 30"), "a mesh of about 2.15e+08 nodes needs about");
   check_refused(run_within_4_GB("mesh --refine 2000000000"), "more degrees of freedom than");
   CHECK_FALSE(fs::exists(folder / "out"));
 
   const std::string coarse = std::string(testing::kCoarseNeck) + " -q";
   REQUIRE(run_within_4_GB("mesh" + coarse).exit_code == 0);
   check_refused(run_within_4_GB("modes --set modes.count=4000" + coarse),
-                "take a coarser mesh or fewer modes");
+                "use a coarser mesh or fewer modes");
   check_refused(run_within_4_GB("modes --set modes.count=100000" + coarse), "found 100000");
   CHECK_FALSE(fs::exists(folder / "out/modes.h5"));
 }
@@ -172,7 +171,7 @@ TEST_CASE("mesh --dry-run tells dimensions, mass and section of the neck and mak
   const CommandOutcome giant = run_flexneck("mesh --show --set geometry.length='143 m'" + out);
   CHECK(giant.exit_code == 0);
   CHECK_THAT(giant.text, Contains("Warning: the largest extent is 143 m"));
-  check_refused(run_flexneck("modes --show" + out), "--show belongs to the command mesh");
+  check_refused(run_flexneck("modes --show" + out), "--show is an option of the command mesh");
   check_refused(run_flexneck("mesh --refine=-1" + out), "a whole number of at least 0");
 }
 

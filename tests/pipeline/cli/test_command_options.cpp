@@ -60,18 +60,19 @@ TEST_CASE("each command has a help of its own, and all of it fits the console") 
 }
 
 TEST_CASE("an option is refused by commands in which it does nothing") {
-  check_refused(run_flexneck("modes --show"), "--show belongs to the command mesh");
+  check_refused(run_flexneck("modes --show"), "--show is an option of the command mesh");
   check_refused(run_flexneck("static --refine=1"),
-                "--refine belongs to the command run, qualify, mesh");
+                "--refine is an option of the command run, qualify, mesh");
   check_refused(run_flexneck("info --set a=1 b"),
-                "--set belongs to the command run, qualify, mesh");
-  check_refused(run_flexneck("mesh --to bar.inp"), "--to belongs to the command export");
-  check_refused(run_flexneck("export --binary --to bar.inp"), "no meaning for a .inp");
+                "--set is an option of the command run, qualify, mesh");
+  check_refused(run_flexneck("mesh --to bar.inp"), "--to is an option of the command export");
+  check_refused(run_flexneck("export --binary --to bar.inp"), "no effect on a file of type .inp");
   check_refused(run_flexneck("mesh --shw"), "'flexneck mesh --help' lists its options");
   check_refused(run_flexneck("mesh --shw"), "--shw (did you mean '--show'?)");
   check_refused(run_flexneck("run --frce"), "(did you mean '--force'?)");
-  check_refused(run_flexneck("-o out mesh"), "the command comes first: 'flexneck mesh'");
-  check_refused(run_flexneck("-q"), "the command comes first: 'flexneck COMMAND'");
+  check_refused(run_flexneck("-o out mesh"),
+                "the command must precede its options and files: 'flexneck mesh'");
+  check_refused(run_flexneck("-q"), "'flexneck COMMAND' followed by its options");
   check_refused(run_flexneck("msh"), "did you mean 'mesh'?");
 }
 
@@ -101,11 +102,11 @@ TEST_CASE("a folder remembers its study and the values set, and a run fits the c
              Contains("Study of " + (folder / "out").string() + ": the built-in one --set mesh."));
   // Runs of the previous modes are neither shown nor judged together with the new ones.
   CHECK_THAT(run_flexneck("report" + out).text,
-             Contains("files of this folder, not made from the modes.h5 in it, are left out"));
+             Contains("files of this folder, not made from the current modes.h5, are omitted"));
   const CommandOutcome judged = run_flexneck("verify" + out);
   CHECK(judged.exit_code == 2);
-  CHECK_THAT(judged.text, Contains("was made from another modes.h5 than the one beside it; make it "
-                                   "again with 'flexneck pendulum'"));
+  CHECK_THAT(judged.text, Contains("was made from a different modes.h5 than the one in this "
+                                   "folder; make it again with 'flexneck pendulum'"));
   const CommandOutcome tester = run_flexneck("static" + out);
   CHECK(tester.exit_code == 0);
   CHECK_THAT(tester.text, Contains("--set modes.count=8"));
@@ -115,12 +116,12 @@ TEST_CASE("a folder remembers its study and the values set, and a run fits the c
                 "was made with");
   // Modes of the previous mesh, and all results made from them, are not shown either.
   REQUIRE(run_flexneck("mesh --set mesh.quadrant=3" + out).exit_code == 0);
-  CHECK_THAT(run_flexneck("report" + out).text,
-             Contains("A file of this folder, not made from the mesh.h5 in it, is left out: "
-                      "modes.h5;") &&
-                 Contains("not made from the modes.h5 in it, are left out"));
+  CHECK_THAT(
+      run_flexneck("report" + out).text,
+      Contains("A file of this folder, not made from the current mesh.h5, is omitted: modes.h5;") &&
+          Contains("not made from the current modes.h5, are omitted"));
   std::ofstream(folder / "out/study.json") << "{ half a";
-  check_refused(run_flexneck("static" + out), "out/study.json: expected the study");
+  check_refused(run_flexneck("static" + out), "out/study.json: expected the record of the study");
 }
 
 TEST_CASE("paths that the system or a folder's study.json cannot take are unusable input") {
@@ -161,7 +162,7 @@ TEST_CASE("no built-in study is taken for results whose study.json is missing") 
   fs::remove(folder / "out/study.json");
   for (const char* const command : {"modes", "pendulum", "static", "verify", "report", "stress"})
     check_refused(run_flexneck(command + out),
-                  "study.json, which says what study the results there are of, is missing; name");
+                  "study.json, which records the study of these results, is missing; name");
   CHECK(run_flexneck("modes -q cantilever" + out).exit_code == 0);
   CHECK(run_flexneck("modes -q" + out).exit_code == 0);
 }
@@ -178,18 +179,19 @@ TEST_CASE(
     return outcome.text;
   };
   REQUIRE(run_flexneck("mesh -q --set modes.count=5 " + study + out).exit_code == 0);
-  CHECK_THAT(modes("--set modes.count=3"),
-             Contains("Solving for 3 modes") &&
-                 Contains("For this command alone: --set modes.count=3; with --keep for those to "
-                          "come in " +
-                          (folder / "out").string() + ", too"));
+  CHECK_THAT(
+      modes("--set modes.count=3"),
+      Contains("Solving for 3 modes") && Contains("Only for this command: --set modes.count=3; add "
+                                                  "--keep to store it for later commands in " +
+                                                  (folder / "out").string() + ", too"));
   CHECK_THAT(modes(""), Contains("Solving for 5 modes") && !Contains("alone"));
-  CHECK_THAT(modes(study), Contains("For this command alone: ") && Contains("cantilever.toml"));
-  CHECK_THAT(modes("--check"), Contains("alone: --set modes.check=true"));
+  CHECK_THAT(modes(study), Contains("Only for this command: ") && Contains("cantilever.toml"));
+  CHECK_THAT(modes("--check"), Contains("command: --set modes.check=true"));
   CHECK_THAT(modes("--set modes.count=3 --keep"), !Contains("alone"));
   CHECK_THAT(modes("--set modes.count=3"), Contains("Solving for 3 modes") && !Contains("alone"));
   CHECK_THAT(modes(""), Contains("Solving for 3 modes"));
-  check_refused(run_flexneck("mesh --keep" + out), "--keep belongs to the command modes, stress");
+  check_refused(run_flexneck("mesh --keep" + out),
+                "--keep is an option of the command modes, stress");
 }
 
 TEST_CASE("studies and models point at the command that takes them, and a model at what it needs") {
@@ -203,10 +205,9 @@ TEST_CASE("studies and models point at the command that takes them, and a model 
   check_refused(run_flexneck("run cantilever --set modes.cont=4" + out), "did you mean 'count'?");
   check_refused(run_flexneck("simulate four_bar --set solver.end_tim='1 s'" + out),
                 "did you mean 'end_time'?");
-  check_refused(
-      told_by(folder, "simulate chain"),
-      "out/seat_back/modes.h5: no such file, nor one here; make out/seat_back/modes.h5 with "
-      "'flexneck run seat_back -o out/seat_back'");
+  check_refused(told_by(folder, "simulate chain"),
+                "out/seat_back/modes.h5: no such file, and none in the current folder; make "
+                "out/seat_back/modes.h5 with 'flexneck run seat_back -o out/seat_back'");
   CHECK_FALSE(fs::exists(folder / "out"));
   // Paths are relative to the current folder, into which commands write.
   REQUIRE(printed_by(folder, "run -q cantilever -o out/bar").exit_code == 0);
@@ -228,8 +229,9 @@ made_by = "flexneck run cantilever -o out/bar"
 
 TEST_CASE("a folder of results is described, and one without results has no report") {
   const TemporaryFolder folder;
-  check_refused(told_by(folder, "report -o none"),
-                "none: holds no results; 'flexneck run -o none' makes those of the built-in study");
+  check_refused(
+      told_by(folder, "report -o none"),
+      "none: contains no results; 'flexneck run -o none' creates those of the built-in study");
   CHECK_FALSE(fs::exists(folder / "none"));
   check_refused(told_by(folder, "info ."), "expected a folder of results");
   REQUIRE(printed_by(folder, "run -q cantilever -o bar").exit_code == 0);

@@ -41,7 +41,7 @@ TEST_CASE("the mesh file holds the partitions and the order that the study asks 
   CHECK(file.partitions.size() == 2);
   CHECK(file.node_order.size() == file.mesh.nodes.size());
   check_refused(run_flexneck("mesh -o " + out + kCoarse + " --set mesh.partitions='[0]'"),
-                "mesh.partitions: expected numbers of processes");
+                "mesh.partitions: expected whole numbers of processes");
 }
 
 TEST_CASE(
@@ -117,7 +117,7 @@ TEST_CASE("what a stage leaves is read by the next one, or refused in one line")
   }
   SECTION("a stage refuses what was made with other values") {
     check_refused(run_flexneck("modes -o " + out + kCoarse + " --set geometry.length='5.7 in'"),
-                  "was made with geometry.length = 5.66 in, the study has 5.7 in");
+                  "was made with geometry.length = 5.66 in, but the study has 5.7 in");
     check_refused(run_flexneck("pendulum -o " + out + kCoarse + " --set modes.count=11"),
                   "make it again with 'flexneck modes'");
     check_refused(
@@ -150,13 +150,13 @@ TEST_CASE("what a stage leaves is read by the next one, or refused in one line")
                                Contains("modes.h5"));
     // A key that the study does not give has its default.
     check_refused(run_flexneck("static" + study + " -o " + out + kCoarse + " --set modes.count=6"),
-                  "modes.h5: was made with modes.basis = residual, the study has normal");
+                  "modes.h5: was made with modes.basis = residual, but the study has normal");
     CHECK(run_flexneck("modes -q" + study + " -o " + out + kCoarse).text.find("Warning") !=
           std::string::npos);
     CHECK(run_flexneck("modes -q" + study + " -o " + out + kCoarse).text.empty());
     check_refused(
         run_flexneck("static" + study + " -o " + out + kCoarse + " --set modes.basis=residual"),
-        "modes.h5: was made without modes.basis, the study has residual");
+        "modes.h5: was made without modes.basis, but the study has residual");
   }
   SECTION("one flipped bit of a frequency is refused") {
     std::string bytes = bytes_of(folder / "modes.h5");

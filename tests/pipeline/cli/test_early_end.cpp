@@ -30,7 +30,7 @@ TEST_CASE(
   const TemporaryFolder folder;
   REQUIRE(run_coarse(folder.path(), "mesh").exit_code == 0);
   REQUIRE(run_coarse(folder.path(), "modes").exit_code == 0);
-  const std::string early = "the run ended early, what there is of it is kept: ";
+  const std::string early = "the run ended early; the results up to that time are kept: ";
 
   const CommandOutcome pendulum = run_coarse(folder.path(), std::string("pendulum") + kLargeSteps);
   INFO(pendulum.text);

@@ -27,7 +27,7 @@ TEST_CASE("a folder that cannot be made or written is refused") {
   std::ofstream(folder / "file") << "in the way";
   check_refused(
       run_flexneck("mesh -o " + (folder / "file").string() + testing::kCoarseNeck + " -q"),
-      "cannot be made a folder for results");
+      "the folder for results cannot be created");
   // Not even root can create a file there.
   check_refused(run_flexneck(std::string("mesh -q -o /proc/self") + testing::kCoarseNeck),
                 "/proc/self: cannot be written");

@@ -114,20 +114,21 @@ effective_damping = 1
   // Unchanged stages are kept, and their tables are shown again.
   const CommandOutcome kept = run_flexneck("run -o " + second + kCoarse);
   CHECK(kept.exit_code == outcome.exit_code);
-  CHECK_THAT(kept.text, Contains("Nothing has changed for report: kept") && !Contains("Meshing") &&
-                            Contains("Nothing has changed for 46 of 46 pendulum cases: kept") &&
-                            Contains("Head/neck pendulum") && Contains("torsion 2"));
+  CHECK_THAT(kept.text,
+             Contains("Inputs unchanged for report: results kept") && !Contains("Meshing") &&
+                 Contains("Inputs unchanged for 46 of 46 pendulum cases: results kept") &&
+                 Contains("Head/neck pendulum") && Contains("torsion 2"));
   const CommandOutcome touched =
       run_flexneck("run -o " + second + kCoarse + " --set case.flexion-60.duration='0.9 s'");
   // The case and its four variants are affected.
-  CHECK_THAT(touched.text, Contains("Nothing has changed for modes: kept") &&
-                               Contains("Nothing has changed for static: kept") &&
-                               Contains("Nothing has changed for 41 of 46 pendulum cases: kept") &&
-                               Contains("Head/neck pendulum: flexion-60\n") &&
-                               Contains("Head/neck pendulum: flexion-60-rigid\n") &&
-                               !Contains("Head/neck pendulum: flexion-40") &&
-                               !Contains("Nothing has changed for verify") &&
-                               Contains("Writing the report"));
+  CHECK_THAT(touched.text,
+             Contains("Inputs unchanged for modes: results kept") &&
+                 Contains("Inputs unchanged for static: results kept") &&
+                 Contains("Inputs unchanged for 41 of 46 pendulum cases: results kept") &&
+                 Contains("Head/neck pendulum: flexion-60\n") &&
+                 Contains("Head/neck pendulum: flexion-60-rigid\n") &&
+                 !Contains("Head/neck pendulum: flexion-40") &&
+                 !Contains("Inputs unchanged for verify") && Contains("Writing the report"));
   CHECK(bytes_of(folder / "first/modes.h5") == bytes_of(folder / "second/modes.h5"));
 
   // Compared side by side the runs differ in that value and in no other setting.

@@ -90,7 +90,7 @@ TEST_CASE("modes --sensitivity gives the derivatives that repeated runs have") {
   REQUIRE(outcome.exit_code == 0);
   CHECK_THAT(outcome.text, Contains("geometry.bottom_rubber_diameter") &&
                                Contains("geometry.materials.butyl.poissons_ratio") &&
-                               Contains("geometry.bolt_circle_radius is left out"));
+                               Contains("geometry.bolt_circle_radius is omitted"));
   CHECK(longest_line_but_warnings(outcome.text.substr(outcome.text.find("Sensitivities:"))) <= 100);
   const std::string file = text_of_file(base / "sensitivities.json");
   CHECK_THAT(file, Contains("\"flexneck tables\"") && Contains("\"modes.h5\""));
@@ -122,8 +122,8 @@ TEST_CASE("modes --sensitivity gives the derivatives that repeated runs have") {
   }
 
   REQUIRE(run_flexneck("report -q" + out).exit_code == 0);
-  CHECK_THAT(text_of_file(base / "report.html"),
-             Contains("What each input does") && Contains("alt=\"Picture: What one per cent"));
+  CHECK_THAT(text_of_file(base / "report.html"), Contains("Sensitivities to the inputs") &&
+                                                     Contains("alt=\"Picture: Effect of a change"));
   CHECK(fs::exists(base / "figures/tornado.svg"));
   // Sensitivities are valid only for the modes with which they were made.
   REQUIRE(run_flexneck("modes -q" + out).exit_code == 0);
@@ -142,7 +142,7 @@ TEST_CASE("of a script's constants those have sensitivities that move nodes") {
   INFO(outcome.text);
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.text,
-             Contains("geometry.constants.along is left out: it changes the topology"));
+             Contains("geometry.constants.along is omitted: it changes the topology"));
   // A slender bar: f ~ length^-2, sqrt(E / rho).
   const auto by = [&](const std::string& key) {
     const Derivative found = derivatives_by(folder / "sensitivities.json", key).at("mode 1");
@@ -170,14 +170,14 @@ TEST_CASE("the option --sensitivity is refused where it cannot be") {
   const TemporaryFolder folder;
   const std::string out = " -o " + folder.path().string();
   check_refused(run_flexneck("run --sensitivity" + out),
-                "--sensitivity belongs to the command modes, found with 'run'");
+                "--sensitivity is an option of the command modes, not of 'run'");
   check_refused(run_flexneck("modes --sensitivity --set modes.basis=craig-bampton" + out),
                 "needs eigenvectors, found modes.basis = \"craig-bampton\"");
   std::ofstream(folder / "matrices.toml")
       << "[matrices]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\nnodes = \"x.txt\"\n";
   for (const char* const name : {"K.mtx", "M.mtx", "x.txt"}) std::ofstream(folder / name) << "\n";
   check_refused(run_flexneck("modes --sensitivity " + (folder / "matrices.toml").string() + out),
-                "[matrices] has no elements to differentiate");
+                "which [matrices] does not contain");
 }
 
 }  // namespace flexneck::pipeline

@@ -206,6 +206,6 @@ TEST_CASE("a slit neck as one body with gaps bends as plates and sections do, bo
     CHECK(outcome.exit_code == 2);
     CHECK_THAT(outcome.text, Contains(message));
   };
-  refused("modes = [\"shut 1\"]\n", "takes all its modes");
+  refused("modes = [\"shut 1\"]\n", "expected all modes");
   refused("stress_stiffening = true\n", "stress_stiffening");
 }

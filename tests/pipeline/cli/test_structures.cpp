@@ -165,8 +165,7 @@ TEST_CASE(
       Contains("Modes: free"));
   CHECK_THAT(run_flexneck("export " + study + " --to " + (folder / "bar.inp").string()).text,
              Contains("Warning: ") &&
-                 Contains("bar.inp: formulation mixed_pressure is not carried "
-                          "over") &&
+                 Contains("bar.inp: the formulation mixed_pressure is not carried over") &&
                  Contains("Aluminium (Poisson's ratio 0.33)"));
   CHECK_THAT(run_flexneck("export --set modes.formulation=displacement " + study + " --to " +
                           (folder / "bar.inp").string())
@@ -222,12 +221,12 @@ Physical Volume("bar") = {1, 2};
   check_refused(
       run_flexneck("mesh -q --set geometry.script=" + (folder / "apart.geo").string() +
                    " --set 'geometry.constants={}' " + kExamples + "cantilever.toml" + out),
-      "nodes lie in the place of others");
+      "nodes coincide with others");
   check_refused(run_flexneck("mesh -q --set geometry.unit=kg " + study), "geometry.unit");
   check_refused(run_flexneck("mesh -q --set geometry.file=cantilever.stl " + study),
-                "expected a file with one of the endings");
+                "expected a file with one of the extensions");
   check_refused(run_flexneck("mesh -q --set geometry.file=part.step " + study),
-                "a STEP file says its unit itself");
+                "a STEP file contains its unit");
   check_refused(run_flexneck("mesh -q --set geometry.script=a.geo " + study),
                 "expected file or script, found both");
   check_refused(run_flexneck("mesh -q --set geometry.constants.lengh='1 m' " + kExamples +

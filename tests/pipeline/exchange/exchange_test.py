@@ -167,15 +167,15 @@ class Exchange(unittest.TestCase):
         self.assertAlmostEqual(numpy.trace(bar.G[0, 0]) / 2, 1.173, 3)
         for name in ("balken1m", "beam"):
             told = self.flexneck("export", SAMPLES / f"sid_fem/{name}.SID_FEM", "--to", "sample.h5", expected=2)
-            self.assertIn("contradict each other", told)
+            self.assertIn("differ by", told)
             self.assertFalse((self.folder / "sample.h5").exists())
 
     def test_refusals(self):
         told = self.flexneck("export", MODES, "--to", "bar.msh", expected=2)
-        self.assertIn("expected an ending of", told)
-        self.assertIn(".fem (a modal body for MBDyn)", told)
+        self.assertIn("expected one of the extensions", told)
+        self.assertIn(".fem (modal body for MBDyn)", told)
         told = self.flexneck("export", MODES, "--to", "x.h5", expected=2)
-        self.assertIn("expected a body in .fem (MBDyn) or .SID_FEM", told)
+        self.assertIn("expected a body in a .fem (MBDyn) or .SID_FEM file", told)
 
 
 if __name__ == "__main__":

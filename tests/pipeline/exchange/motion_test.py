@@ -118,7 +118,7 @@ class Motion(unittest.TestCase):
         self.assertIn("expected a run with a deformable body", text)
         self.assertFalse((self.folder / "bars").exists())
         text = self.flexneck("export", "out/four_bar.h5", "--to", "bars.vtu", fine=(2,))
-        self.assertIn("expected an ending of .mme, .pvd or .csv", text)
+        self.assertIn("expected the extension .mme, .pvd or .csv", text)
 
 
 if __name__ == "__main__":

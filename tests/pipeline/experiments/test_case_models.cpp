@@ -147,7 +147,8 @@ TEST_CASE("what a case's model gets wrong is refused with file, line and key") {
   own.refuses(flexion + "[[case.joint]]\nname = \"j3\"\nkind = \"fixed\"\n",
               "case.flexion-60.joint.j3.lower: expected this key");
   own.refuses(flexion + "[[case.body]]\nname = \"arm\"\ninitial_velocity = \"1 m/s\"\n",
-              "case.flexion-60.body.arm.initial_velocity: the case gives this body its motion");
+              "case.flexion-60.body.arm.initial_velocity: has no effect, since the case determines "
+              "the motion of this body");
   own.refuses(flexion + "bodies = [\"neck\", \"head\"]\n",
               "expected one body of kind \"prescribed\", the pendulum's arm, found 0");
   // Errors are also found in a table that others override in every case, and in one that no case
@@ -179,7 +180,7 @@ TEST_CASE("a chain of substructures is refused a model that it cannot stand for"
   const Study study =
       read_study(built_in_study(), {R"(case.flexion.bodies=["ground", "neck", "head"])"});
   CHECK_THROWS_WITH(static_chain_model(named(study, "flexion"), {}),
-                    Contains("case.flexion: the chain of substructures replaces a neck"));
+                    Contains("case.flexion: a chain of substructures can replace only a neck"));
 }
 
 TEST_CASE("a study runs all of its cases, some or none") {
@@ -197,7 +198,7 @@ TEST_CASE("a study runs all of its cases, some or none") {
                     Contains("cases: there is no case 'flexion-61'") && Contains("did you mean"));
   testing::check_refused(testing::run_flexneck("run --case flexoin-20"), "did you mean");
   testing::check_refused(testing::run_flexneck("mesh --case flexion-20"),
-                         "--case belongs to the command run, qualify, static, pendulum");
+                         "--case is an option of the command run, qualify, static, pendulum");
 }
 
 }  // namespace flexneck::pipeline

@@ -192,5 +192,5 @@ TEST_CASE("a case whose bodies no joint connects is refused") {
   loose.model.model.joints.clear();
   loose.model.starts.clear();
   CHECK_THROWS_WITH(pendulum_model(experiment.study, loose, experiment.body),
-                    Contains("no joint or section connects the body 'neck'"));
+                    Contains("the position of body 'neck' is not determined"));
 }

@@ -224,14 +224,14 @@ TEST_CASE("what an assembly gets wrong is told with file, line, column and key")
   refused("[[assembly]]\nfile = \"bar.toml\"\n", "assembly.1.name: expected a text");
   refused(assembly("a:b", "bar.toml"), "expected a name without '.', ':' and '/', found 'a:b'");
   refused(assembly("a", "bar.toml") + assembly("a", "bar.toml"),
-          "assembly.a.name: expected a name of");
+          "assembly.a.name: expected a unique name");
   refused(assembly("a", "none.toml"),
-          "model.toml:13:8: assembly.a.file: expected a file, found none of the name");
+          "model.toml:13:8: assembly.a.file: expected a file, but there is none with the name");
   refused(assembly("a", "bar.toml", "variables = { sied = 1 }\n"),
           "model.toml:14:22: assembly.a.variables.sied: expected a variable of");
   refused(assembly("a", "bar.toml", "variables = { mass = \"$m\" }\n"),
           "model.toml:14:22: assembly.a.variables.mass: expected a variable of [variables]");
-  refused(assembly("a", "bar.toml"), "--set assembly.b.variables.side=1: there is no assembly",
+  refused(assembly("a", "bar.toml"), "--set assembly.b.variables.side=1: there is no [[assembly]]",
           {"assembly.b.variables.side=1"});
   refused("[assembly]\n", "assembly: expected tables [[assembly]]");
 
@@ -241,9 +241,12 @@ TEST_CASE("what an assembly gets wrong is told with file, line, column and key")
   };
   inside("[solver]\nend_time = \"1 s\"\n", "part.toml:1:1: solver: expected tables [[body]]");
   inside("body = 1\n", "part.toml:1:8: body: expected tables [[body]]");
-  inside("[variables]\nx = 1\n", "part.toml:2:5: assembly.a.variables.x: expected a value that is");
-  inside(assembly("b", "part.toml"), "expected another file, found one that holds this assembly");
-  inside(assembly("b", "model.toml"), "expected another file, found one that holds this assembly");
+  inside("[variables]\nx = 1\n",
+         "part.toml:2:5: assembly.a.variables.x: expected a value that uses");
+  inside(assembly("b", "part.toml"),
+         "expected another file, found one that contains this assembly");
+  inside(assembly("b", "model.toml"),
+         "expected another file, found one that contains this assembly");
   inside("[[force]]\nname = \"f\"\nmarker = \"frame.middle\"\n",
          "part.toml:3:10: force.a:f.marker: ");
 }
@@ -256,7 +259,7 @@ TEST_CASE("assemblies have an end: 16 within one another, 100 files") {
                     assembly("a", next) + assembly("b", next));
   }
   write_test_file(files.folder / "20.toml", "");
-  const std::string why = "expected at most 100 files, and 16 within one another";
+  const std::string why = "expected at most 100 files, nested at most 16 deep";
   CHECK_THROWS_WITH(files.model(kFrame + assembly("a", "0.toml")), Contains(why));
   CHECK_THROWS_WITH(files.model(kFrame + assembly("a", "10.toml")), Contains(why));
   CHECK(joined(files.model(kFrame + assembly("a", "17.toml")).model.bodies) == "frame");

@@ -168,8 +168,9 @@ TEST_CASE("the reference of keys has each with unit, default and meaning in 100 
   REQUIRE(joint.key != nullptr);
   const std::string text = table_text("joint", *joint.key);
   CHECK_THAT(text, Contains("[[joint]] Joints between markers\n"));
-  CHECK_THAT(text, Contains("  angle (quantity in rad; default 0)\n      Angle at the start, of "
-                            "any turn; without it, what bodies' places say within half a turn\n"));
+  CHECK_THAT(text,
+             Contains("  angle (quantity in rad; default 0)\n      Initial angle, any number of "
+                      "turns; if not given, from the bodies' positions, -180 to 180 deg\n"));
   CHECK_THAT(text, Contains("  axis (list of 3 numbers)\n"));
   visit_formats([&](const std::string&, const Key& key) {
     std::istringstream lines(key.keys.empty() ? key_text(key)

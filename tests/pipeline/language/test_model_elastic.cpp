@@ -95,19 +95,19 @@ TEST_CASE("what a section cannot mean is refused by its key") {
   const auto refused = [](const std::string& part, const std::string& by, const char* message) {
     CHECK_THROWS_WITH(read(with(section_text(), part, by)), Contains(message));
   };
-  refused("[0.5, 0.25]", "[0.5, 0.6]", "relaxation_shares: their sum is above one");
-  refused("[0.5, 0.25]", "[0.5]",
-          "relaxation_shares: expected one for each of relaxation_times, 2");
+  refused("[0.5, 0.25]", "[0.5, 0.6]", "relaxation_shares: expected shares whose sum is at most 1");
+  refused("[0.5, 0.25]", "[0.5]", "relaxation_shares: expected one share per relaxation time, 2");
   refused("[0.5, 0.25]", "[0.5, 0]", "relaxation_shares: expected positive shares");
   refused("\"30 ms\"", "\"-30 ms\"", "relaxation time of branch 1 must be positive");
-  refused("length =", "base = \"base\"\nlength =", "base: it belongs to modes_file");
+  refused("length =", "base = \"base\"\nlength =", "base: has no effect without modes_file");
   refused("length = [\"0 m\", \"10 mm\", \"20 mm\"]", "", "expected length and stiffness");
-  refused("length =", "modes_file = \"none.h5\"\nlength =", "length: modes_file gives it already");
+  refused(
+      "length =", "modes_file = \"none.h5\"\nlength =", "length: modes_file determines it already");
   refused("length =", "gap_stiffness = [\"1 N/m\", \"2 N/m\"]\nlength =",
           "gap_stiffness: expected a square matrix of one to four gaps");
   refused("length =", "gap_stiffness = [\"-1 N/m\"]\nlength =", "negative eigenvalue");
   refused("length =", "gap_rotation_coupling = [\"1 N/rad\"]\nlength =",
-          "gap_rotation_coupling: it belongs to gap_stiffness");
+          "gap_rotation_coupling: has no effect without gap_stiffness");
   refused("\"1 N/mm\", \"2 N/mm\", \"3 N/mm\"", "\"1 N/mm\", \"-2 N/mm\", \"3 N/mm\"",
           "must not have a negative eigenvalue");
 }

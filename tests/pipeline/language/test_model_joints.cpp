@@ -117,12 +117,12 @@ TEST_CASE("a motor that says nothing, or what its joint says too, is refused") {
                            const std::string& reason) {
     CHECK_THROWS_WITH(run(read_model(folder, with_elbow(joint, motor + keys))), Contains(reason));
   };
-  refused(pin, "coordinate = \"angle\"\n", "a motor needs a motion");
+  refused(pin, "coordinate = \"angle\"\n", "expected the motion of the motor");
   refused(pin, "coordinate = \"twist\"\nangle = \"t\"\n", "expected one of");
-  refused(pin, "coordinate = \"distance\"\ndistance = \"t\"\n", "cannot give it distance");
+  refused(pin, "coordinate = \"distance\"\ndistance = \"t\"\n", "cannot prescribe its distance");
   refused(pin + "rate = \"1 rad/s\"\n", "coordinate = \"angle\"\nangle = \"t\"\n",
           "given by the joint and by this motor");
-  refused(pin, "coordinate = \"angle\"\nangle = \"t\"\nacceleration = \"t\"\n", "given already by");
+  refused(pin, "coordinate = \"angle\"\nangle = \"t\"\nacceleration = \"t\"\n", "already given by");
 }
 
 TEST_CASE("a distance joint closes a loop between bodies that others put in their place") {

@@ -27,7 +27,7 @@ TEST_CASE("a CSV file that is not sound is told with its line") {
   CHECK_THAT(told("time [s], load [N]\n0, 0\n1, 2\n1, 3\n"),
              Contains("t.csv:4: the column 'time' must increase strictly"));
   CHECK_THAT(told("time [s], load [m]\n0, 0\n"),
-             Contains("t.csv:1: column \"load [m]\"") && Contains("measures something else"));
+             Contains("t.csv:1: column \"load [m]\"") && Contains("has another dimension"));
   CHECK_THAT(told("time [s], load\n0, 0\n"), Contains("a column's name and unit"));
   CHECK_THAT(told("time [s], load [N]\n0, x\n"), Contains("t.csv:2: expected a finite number"));
   CHECK_THAT(told("time [s], load [N]\n0, nan\n"), Contains("finite number, found \"nan\""));
@@ -50,19 +50,19 @@ TEST_CASE("surplus cells, decimal commas and other separators of a CSV file are 
     CHECK_THROWS_WITH(columns(text), Contains(why));
   };
   refused(names + "0, 1\n10, 24,15\n",
-          "t.csv:3: expected 2 cells as in the line of names, found 3; "
-          "commas stand between cells, and decimals have a point");
+          "t.csv:3: expected 2 cells as in the header line, found 3; cells are separated by "
+          "commas, and decimals have a point");
   refused(names + "0, 1,\n", "t.csv:2: expected 2 cells");
   refused(names + "0 1\n", "decimals have a point");
-  refused("time [s]; load [N]\n0; 1\n", "commas stand between cells");
-  refused("time [s]\tload [N]\n0\t1\n", "commas stand between cells");
+  refused("time [s]; load [N]\n0; 1\n", "cells are separated by commas");
+  refused("time [s]\tload [N]\n0\t1\n", "cells are separated by commas");
   refused(names + "0, 1;5\n", "decimals have a point");
   refused(names + "0, 1\r1, 2\r", "lines that end in LF or CRLF");
   refused(names + "0, 0x10\n", "expected a finite number");
   refused(names + "0, 1e999\n", "expected a finite number");
   refused("time [s], load [Mt km/s^2]\n0, 1e302\n", "expected a finite number");
   refused(names + std::string("0, 1\0\n", 6), "found \\x00");
-  refused("time [2 s], load [N]\n0, 1\n", "no number stands within a unit");
+  refused("time [2 s], load [N]\n0, 1\n", "a unit contains no number");
   CHECK_THROWS_WITH(columns("time [s], a [N], a [N]\n0, 1, 2\n", "a"),
                     Contains("several columns 'a'"));
   const TableColumns same =

@@ -73,7 +73,7 @@ TEST_CASE("of a bar on a spring and a pin the boundary tells what is left") {
       "[[modes.spring]]\nname = \"hinge\"\nbetween = [\"hub\"]\ndirection = [0, 1, 0]\n"
       "torsional_stiffness = \"2 N*m/rad\"\n";
   const fe_modal::ModalBody body = modes_of(folder, pin + spring);
-  CHECK(body.boundary == "fixed: support of 'hub'; turns about z");
+  CHECK(body.boundary == "fixed: support of 'hub'; rotates about z");
   CHECK(body.frequencies_Hz[0] == 0);
   // A rigid bar on the spring: sqrt(k / (m L^2 / 3)), much more flexible than the bar's bending.
   const double single_Hz = std::sqrt(2 / (0.81 * 0.25 / 3)) / (2 * 3.14159265358979);
@@ -87,20 +87,20 @@ TEST_CASE("connections of a study that cannot be are refused in one line") {
     check_refused(run_flexneck("modes " + study_with(folder, modes)), text);
   };
   refused("[[modes.support]]\nat = \"tip\"\ndirection = [0, 0, 0]\n",
-          "expected a direction, found a vector of zero");
+          "expected a direction, found a zero vector");
   refused("[[modes.support]]\nat = \"tap\"\ndirections = \"x\"\n", "did you mean 'tip'");
-  refused("[[modes.support]]\nat = \"tip\"\n", "expected directions, a direction or turns");
+  refused("[[modes.support]]\nat = \"tip\"\n", "expected one of directions, direction and turns");
   refused("[[modes.spring]]\nname = \"s\"\nbetween = [\"tip\"]\nstiffness = \"1 N/m\"\n",
           "expected the direction of a spring to ground");
   refused("[[modes.point_mass]]\nname = \"m\"\nat = \"tip\"\nmass = \"1 kg\"\n",
-          "expected one; make a coupling of it");
+          "expected one; define a coupling for it");
   refused(
       "[[modes.equation]]\nname = \"e\"\n[[modes.equation.term]]\nat = \"tip\"\n"
       "direction = [1, 0, 0]\n",
-      "expected two terms or more, found 1");
+      "expected at least two terms, found 1");
   refused(
       "[[modes.coupling]]\nname = \"tip\"\nposition = [\"0.5 m\", \"0 m\", \"0 m\"]\n"
       "[[modes.coupling]]\nname = \"again\"\nset = \"tip\"\n"
       "position = [\"0.4 m\", \"0 m\", \"0 m\"]\n",
-      "coupling 'again' and coupling 'tip' contradict one another: both determine x");
+      "coupling 'again' and coupling 'tip' contradict each other: both determine x");
 }

@@ -140,7 +140,8 @@ TEST_CASE("the report tells loss factor and storage of the relaxing rubber, and 
   const std::vector<std::string> expected = {"disc_1, disc_2, disc_3, disc_4", "5", "0.787",
                                              "0.247"};
   CHECK(table.rows[3] == expected);
-  CHECK(table.notes.front().find("a stand-in for 1 to 20 Hz") != std::string::npos);
+  CHECK(table.notes.front().find("the branches represent the rubber from 1 to 20 Hz") !=
+        std::string::npos);
 }
 
 TEST_CASE("the certification test keeps its books, and finer steps change no figure") {

@@ -164,18 +164,19 @@ TEST_CASE("laws of relaxation that make no sense, or that branches do not follow
   const std::string fractional =
       "share = 0.7, time = \"20 ms\", order = 0.5, from = \"0.1 Hz\", to = \"1000 Hz\"";
   refused(fractional + ", branches = 2",
-          "relaxation_law.branches: 2 of them miss a fractional law");
-  refused(fractional + ", times = [\"1 s\", \"2 s\"]", "relaxation_law.times: expected one law");
-  refused("share = 0.7", "expected a law");
+          "relaxation_law.branches: 2 branches fitted to a fractional law");
+  refused(fractional + ", times = [\"1 s\", \"2 s\"]",
+          "relaxation_law.times: expected a single law");
+  refused("share = 0.7", "expected a relaxation law");
   refused("share = 1.2, time = \"1 s\", order = 0.5, from = \"1 Hz\", to = \"2 Hz\"",
           "relaxation_law.share");
   const std::string table = "modulus = \"5 MPa\", frequencies = [\"1 Hz\", \"10 Hz\"], ";
   refused(table + "storage = [\"3 MPa\", \"6 MPa\"], loss = [\"0 MPa\", \"0 MPa\"]",
-          "the spectrum does not sum above one");
+          "the shares do not exceed one");
   refused(
       "modulus = \"5 MPa\", frequencies = [\"10 Hz\", \"1 Hz\"], storage = [\"3 MPa\", \"4 MPa\"]"
       ", loss = [\"0 MPa\", \"0 MPa\"]",
-      "increase strictly, but not so is number 2");
+      "increase strictly, which is not the case for value 2");
   // A storage modulus that falls with frequency is not a spectrum of relaxation.
   refused(table + "storage = [\"4 MPa\", \"2 MPa\"], loss = [\"1 MPa\", \"1 MPa\"]",
           "miss a table of the dynamic modulus");

@@ -57,8 +57,8 @@ TEST_CASE("a file that is here goes before a shipped one, with or without its en
 TEST_CASE("a name that is neither here nor shipped is refused with the nearest one") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH(named_file("penulum.toml", folder.path()),
-                    Contains("penulum.toml: no such file, and no shipped study or model 'penulum' "
-                             "(did you mean 'pendulum'?)"));
+                    Contains("penulum.toml: no such file, and there is no shipped study or model "
+                             "'penulum' (did you mean 'pendulum'?)"));
   CHECK_THROWS_AS(named_file("four_baar", folder.path()), InputError);
 }
 

@@ -152,7 +152,7 @@ TEST_CASE("elements and slits are read, or refused with what there is") {
   CHECK(with("geometry.slit_depth=0.25").parts == std::vector<std::string>{"rubber_1"});
   CHECK_THROWS_WITH(built_in(open), Contains("slits need slit_depth"));
   CHECK_THROWS_WITH(with("geometry.slit_depth=1.25"), Contains("0 < slit_depth < 1, found 1.25"));
-  CHECK_THROWS_WITH(with("geometry.slit_edge=chord"), Contains("no straight chord"));
+  CHECK_THROWS_WITH(with("geometry.slit_edge=chord"), Contains("no straight line"));
 }
 
 TEST_CASE("the head's inertia is the published principal one, turned") {
@@ -251,15 +251,15 @@ TEST_CASE("a key that is not known where it stands is told where it belongs") {
                                 "mesh_file = \"bar.bdf\"", "input = \"bar.unv\""}) {
     CHECK_THAT(told("[geometry]\n" + key + "\n"),
                Contains("mine.toml:2:") && Contains(": unknown key; is 'script' (gmsh script") &&
-                   Contains(" or 'file' (In place of a script: a mesh or a shape"));
+                   Contains(" or 'file' (Instead of a script: a file with a mesh"));
   }
   CHECK_THAT(told(file + "count = 5\n"),
-             Contains("geometry.count: unknown key; it belongs into [modes]"));
-  CHECK_THAT(told(file + "element = \"hex8\"\n"), Contains("it belongs into [mesh]"));
+             Contains("geometry.count: unknown key; it belongs in [modes]"));
+  CHECK_THAT(told(file + "element = \"hex8\"\n"), Contains("it belongs in [mesh]"));
   CHECK_THAT(told(file + "youngs_modulus = \"1 GPa\"\n"),
-             Contains("it belongs into [geometry.materials.<name>]"));
+             Contains("it belongs in [geometry.materials.<name>]"));
   CHECK_THAT(told(file + "[geometry.mesh]\nsize = \"1 mm\"\n"),
-             Contains("geometry.mesh: unknown key; it belongs into the top level"));
+             Contains("geometry.mesh: unknown key; it belongs in the top level"));
   CHECK_THAT(told(file + "[output]\nmax_step = \"1 ms\"\n"), Contains("into [solver]"));
   CHECK_THAT(told(file + "[modes]\ndamping_ratio = 0.1\n"), Contains("into [[body]]"));
   CHECK_THAT(told(file + "[modes]\npulse_scaling = \"none\"\n"),
@@ -274,26 +274,26 @@ TEST_CASE("a key that another key's value leaves without effect is refused") {
       "[matrices]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\nnodes = \"x.txt\"\n";
   const std::pair<std::string, std::string> refused[] = {
       {file + "[solver]\nspectral_radius = 0.5\n",
-       "solver.spectral_radius: has no effect but with integrator"},
+       "solver.spectral_radius: has no effect without integrator"},
       {file + "[substructures]\nmodes = 3\n",
        "substructures.modes: has no effect without [[substructures.piece]]"},
       {file + "[substructures]\nnormal = [0, 0, 1]\n", "substructures.normal: has no effect"},
       {file + "[substructures]\nnormal = [0, 0, 1]\n[[substructures.piece]]\nname = \"a\"\nparts "
               "= [\"a\"]\n[[substructures.piece]]\nname = \"b\"\nparts = [\"b\"]\n",
-       "substructures.normal: has no effect on pieces that are made of parts"},
+       "substructures.normal: has no effect on substructures that are given by parts"},
       {file + "[modes]\nattached_to = \"tip\"\n",
        "modes.attached_to: has no effect without attached_body"},
       {file + "[modes]\nbasis_interfaces = [\"tip\"]\n",
        "modes.basis_interfaces: has no effect with basis = \"normal\""},
-      {file + "[mesh]\nelement = \"hex8\"\n", "mesh.element: has no effect here (Kind of"},
+      {file + "[mesh]\nelement = \"hex8\"\n", "mesh.element: has no effect here (Element type of"},
       {"[geometry]\nfile = \"bar.step\"\ncoincident_nodes = \"keep\"\n",
-       "geometry.coincident_nodes: has no effect on a shape"},
+       "geometry.coincident_nodes: has no effect on a shape file"},
       {"[geometry]\nscript = \"bar.geo\"\nslit_faces = [\"cut\"]\n",
        "geometry.slit_faces: has no effect with slits = \"none\""},
       {file +
            "[[load]]\nname = \"w\"\nkind = \"pressure\"\npressure = \"1 Pa\"\nmoment = [\"1 N m\", "
            "\"0 N m\", \"0 N m\"]\n",
-       "load.w.moment: has no effect with kind = 'pressure' (Of a face)"},
+       "load.w.moment: has no effect with kind = 'pressure' (Moment on a face set)"},
       {matrices + "[mesh]\nelement = \"hex8\"\n", "mesh: has no effect without [geometry]"},
       {matrices + "[substructures]\nmodes = 1\n", "substructures: has no effect with [matrices]"},
       {file +
@@ -306,7 +306,7 @@ TEST_CASE("a key that another key's value leaves without effect is refused") {
       {file + "[[body]]\nname = \"b\"\nkind = \"prescribed\"\ndirection = [0, 1, "
               "0]\n[body.turn]\naxis "
               "= [0, 1, 0]\ninitial_rate = \"1 rad/s\"\n",
-       "body.b.direction: has no effect on a body that turns only"},
+       "body.b.direction: has no effect on a body that only rotates"},
       {matrices + "[modes]\nfixed = [\"a\"]\n", "modes.fixed: has no effect with [matrices]"},
   };
   for (const auto& [text, why] : refused) {

@@ -153,10 +153,11 @@ TEST_CASE("variables that are undefined, unused, cyclic or no numbers are refuse
           "1:5: w: expected a variable of [variables], found '$y' (did you mean 'x'?)");
   refused("[[body]]\nname = \"a\"\nat = [\n1, \"2*$y\"]", "4:4: body.a.at: expected a variable");
   refused("w = 1\n[variables]\nx = 1",
-          "3:5: variables.x: expected a value that is made of \"$x\", found none; remove it");
+          "3:5: variables.x: expected a value that uses \"$x\", found none; remove the variable");
   refused(used + "x = \"$z\"\ny = \"-$x\"\nz = \"2*$y\"",
-          "3:5: variables.x: expected a value, found itself: x -> z -> y -> x");
-  refused(used + "x = \"$x\"", "3:5: variables.x: expected a value, found itself: x -> x");
+          "3:5: variables.x: expected a value, found one that depends on itself: x -> z -> y -> x");
+  refused(used + "x = \"$x\"",
+          "3:5: variables.x: expected a value, found one that depends on itself: x -> x");
   refused(used + "x = true", "3:5: variables.x: expected a number, or a number with its unit");
   refused(used + "x = [1]", "3:5: variables.x: expected a number");
   refused(used + "x = inf", "3:5: variables.x: expected a finite number");
@@ -165,14 +166,15 @@ TEST_CASE("variables that are undefined, unused, cyclic or no numbers are refuse
           "3:27: variables.x: expected the origin");
   refused(used + "x = { of = 1 }", "3:5: variables.x: expected a value or { value");
   refused(used + "\"x y\" = 1", "3:9: variables.x y: expected a name of letters, digits and '_'");
-  refused("w = \"$value\"\n[variables]\nvalue = 1", "3:9: variables.value: expected another name");
+  refused("w = \"$value\"\n[variables]\nvalue = 1",
+          "3:9: variables.value: expected a name other than");
   refused("variables = 1", "1:13: variables: expected a table [variables]");
   for (const std::string text : {"2*$", "$x*m", "$x*$", "2 m*$x", "$x $x", "--$x", "1e999*$x"})
     refused("w = \"" + text + " $x\"\n[variables]\nx = 1",
-            "1:5: w: expected a product of numbers and variables with a unit at most");
+            "1:5: w: expected a product of numbers and variables with at most one unit");
   refused("w = \"$x*$x\"\n[variables]\nx = \"1 m\"",
           "1:5: w: expected one unit at most, found 'm'");
-  refused("w = \"$x*$x\"\n[variables]\nx = 1e200", "1:5: w: expected a product that is finite");
+  refused("w = \"$x*$x\"\n[variables]\nx = 1e200", "1:5: w: expected a finite product");
   std::string chain = "w = \"$a0\"\n[variables]\na60 = 1\n";
   for (int k = 0; k < 60; ++k)
     chain += "a" + std::to_string(k) + " = \"$a" + std::to_string(k + 1) + "\"\n";

@@ -62,22 +62,22 @@ bool ends_soon(const std::string& id) {
 
 TEST_CASE("a child that crashes, hangs or takes all memory is told in one line") {
   CHECK(refusal(task_named("crash")) ==
-        "bar.msh: gmsh crashes on it (Aborted), last it said: reading section 7; "
+        "bar.msh: gmsh crashed while reading it (Aborted), its last message: reading section 7; "
         "write it anew");
   CHECK(refusal(task_named("leave")) ==
-        "bar.msh: gmsh gives up on it (exit code 1); write it anew");
+        "bar.msh: gmsh failed to read it (exit code 1); write it anew");
   CHECK_THAT(refusal(task_named("allocate")),
-             Contains("bar.msh: gmsh wants more than 0.2 GB of memory for it; write it anew") ||
-                 Contains("gives up on it"));  // as the memory of a sanitizer does
-  CHECK_THAT(
-      refusal(task_named("recurse")),
-      Contains("bar.msh: gmsh crashes on it (Segmentation fault)") || Contains("gives up on it"));
+             Contains("bar.msh: gmsh needs more than 0.2 GB of memory to read it; write it anew") ||
+                 Contains("failed to read it"));  // as the memory of a sanitizer does
+  CHECK_THAT(refusal(task_named("recurse")),
+             Contains("bar.msh: gmsh crashed while reading it (Segmentation fault)") ||
+                 Contains("failed to read it"));
   IsolatedTask busy = task_named("compute");
   busy.limits.processor_s = 1;
-  CHECK(refusal(busy) == "bar.msh: gmsh is not done with it after 1 s; write it anew");
+  CHECK(refusal(busy) == "bar.msh: gmsh did not finish reading it within 1 s; write it anew");
   IsolatedTask idle = task_named("sleep");
   idle.limits.clock_s = 1;
-  CHECK_THAT(refusal(idle), Contains("bar.msh: gmsh is not done with it after "));
+  CHECK_THAT(refusal(idle), Contains("bar.msh: gmsh did not finish reading it within "));
 }
 
 TEST_CASE("once a child has read a file it may take more memory, up to another limit") {
@@ -86,15 +86,16 @@ TEST_CASE("once a child has read a file it may take more memory, up to another l
   task.limits.later_memory_bytes = 400U << 20U;
   CHECK_NOTHROW(run_isolated(task, folder.path(), {}));
   task.limits.later_memory_bytes = 250U << 20U;
-  CHECK_THAT(refusal(task), Contains("wants more than 0.2 GB of memory for it, or more than 0.3 GB "
-                                     "for what it makes of it") ||
-                                Contains("gives up on it"));
+  CHECK_THAT(
+      refusal(task),
+      Contains("needs more than 0.2 GB of memory to read it, or more than 0.3 GB to process it") ||
+          Contains("failed to read it"));
 }
 
 TEST_CASE("once a child has read a file its time begins anew, but has an end") {
   IsolatedTask task = task_named("compute later");
   task.limits.processor_s = 1;
-  CHECK(refusal(task) == "bar.msh: gmsh is not done with it after 2 s; write it anew");
+  CHECK(refusal(task) == "bar.msh: gmsh did not finish reading it within 2 s; write it anew");
 }
 
 TEST_CASE("what a child refuses is refused in its words, and its end does not count") {

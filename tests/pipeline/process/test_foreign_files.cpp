@@ -102,7 +102,7 @@ TEST_CASE("without a folder for temporary files nothing is meshed, which one lin
   testing::check_refused(
       testing::run_shell("cd " + folder.path().string() + " && TMPDIR=missing " +
                          testing::flexneck_program() + " -q mesh"),
-      "TMPDIR: expected a folder for temporary files, found 'missing'; set it to one");
+      "TMPDIR: expected a folder for temporary files, found 'missing'; set it to a folder");
 }
 
 TEST_CASE("a file that crashes or hangs gmsh or OpenCASCADE is refused in one line") {
@@ -126,16 +126,17 @@ TEST_CASE("a file that crashes or hangs gmsh or OpenCASCADE is refused in one li
   const std::string vector = step.substr(comma + 1, step.find(')', comma) - comma - 1);
   std::string crossed = step;
   crossed.replace(line + 10, comma - line - 10, vector);
-  refused("crossed.step", crossed, "OpenCASCADE or gmsh crashes on it (Segmentation fault)");
+  refused("crossed.step", crossed,
+          "OpenCASCADE or gmsh crashed while reading it (Segmentation fault)");
 
   // OpenCASCADE searches for the end of an edge in missing text.
   refused("short.brep", brep.substr(0, brep.find("\nEd\n") + 8),
-          "OpenCASCADE or gmsh is not done with it after ");
+          "OpenCASCADE or gmsh did not finish reading it within ");
 
   // The file is read without complaint: an edge is far away in the parameters of its face.
   refused("far.brep",
           with(brep, "Curve2ds 24\n1 0 0 1 0 \n1 0 0 ", "Curve2ds 24\n1 0 0 1 0 \n1 1e19 0 "),
-          "OpenCASCADE or gmsh is not done with it after ");
+          "OpenCASCADE or gmsh did not finish reading it within ");
 
   // The header announces a block of 2^31 - 1 nodes, but there are none.
   std::istringstream lines(msh.substr(msh.find("$Nodes\n") + 7));
@@ -144,7 +145,7 @@ TEST_CASE("a file that crashes or hangs gmsh or OpenCASCADE is refused in one li
   std::getline(lines, header);
   std::getline(lines, block);
   refused("many.msh", with(msh, header + "\n" + block, header + "\n0 1 0 2147483647"),
-          "gmsh wants more than 0.8 GB of memory for it");
+          "gmsh needs more than 0.8 GB of memory to read it");
 
   // A tetrahedron of nine nodes.
   const std::size_t count = unv.find("10\n", unv.find("  2412\n"));
@@ -158,7 +159,7 @@ TEST_CASE("a shape whose mesh would not fit into memory is refused before it is 
   write_study(folder / "study.toml", "file = \"box.step\"", "volume_1");
   // 16 cm^3 in cubes of a micrometre, with seven nodes each.
   check_refused(folder.path(), "mesh study.toml --set 'mesh.size=1 um'",
-                "box.step: gmsh cannot mesh it: a mesh of about 1.12e+14 nodes takes about");
+                "box.step: gmsh cannot mesh it: a mesh of about 1.12e+14 nodes needs about");
 }
 
 TEST_CASE("what OpenCASCADE complains of while it makes a shape of it is a warning") {
@@ -168,8 +169,7 @@ TEST_CASE("what OpenCASCADE complains of while it makes a shape of it is a warni
   write_study(folder / "study.toml", "file = \"typo.step\"", "volume_1");
   const CommandOutcome outcome = run_flexneck(folder.path(), "mesh study.toml");
   CHECK(outcome.exit_code == 0);
-  CHECK_THAT(outcome.text, Contains("Warning: ") &&
-                               Contains("typo.step: OpenCASCADE complains: ") &&
+  CHECK_THAT(outcome.text, Contains("Warning: ") && Contains("typo.step: OpenCASCADE reports: ") &&
                                Contains("ERR StepFile : Incorrect Syntax"));
   CHECK(outcome.text.find('\x1b') == std::string::npos);
 }
@@ -227,7 +227,7 @@ TEST_CASE("an HDF5 file without a hash that crashes HDF5 is refused in one line"
   for (const char* const name : {"mesh.h5", "modes.h5", "swing.h5"}) {
     write(folder / name, damaged(name));
     check_refused(folder.path(), std::string("info ") + name,
-                  std::string(name) + ": HDF5 crashes on it (Segmentation fault)");
+                  std::string(name) + ": HDF5 crashed while reading it (Segmentation fault)");
   }
   write(folder / "model.toml", R"(
 [solver]
@@ -241,5 +241,5 @@ kind = "deformable"
 modes_file = "modes.h5"
 damping_ratio = 0.1
 )");
-  check_refused(folder.path(), "simulate model.toml", "modes.h5: HDF5 crashes on it");
+  check_refused(folder.path(), "simulate model.toml", "modes.h5: HDF5 crashed while reading it");
 }

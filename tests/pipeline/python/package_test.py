@@ -176,7 +176,7 @@ class Models(InFolder):
         (self.folder / "block.toml").write_text(model.text)
         flexneck("export", self.folder / "block.toml", "--to", self.folder / "command.fmu")
         self.assertEqual((self.folder / "python.fmu").read_bytes(), (self.folder / "command.fmu").read_bytes())
-        with self.assertRaisesRegex(fn.InputError, "ending .fmu"):
+        with self.assertRaisesRegex(fn.InputError, "extension .fmu"):
             model.export(self.folder / "block.fem")
         prototype = fn.Model(SPRING).add_function("mine", *ENDS, linear)
         with self.assertRaisesRegex(fn.InputError, "function_force 'mine': its load is a function of a program"):
@@ -191,11 +191,11 @@ class Models(InFolder):
         for wrong in (None, ([1, 2], [0, 0, 0]), ("a", "b")):
             with self.assertRaisesRegex(fn.InputError, "function_force 'f': expected"):
                 fn.Model(SPRING).add_function("f", *ENDS, lambda *motion: wrong).simulate()
-        with self.assertRaisesRegex(fn.ComputationError, "no finite load") as caught:
+        with self.assertRaisesRegex(fn.ComputationError, "a load that is not finite") as caught:
             fn.Model(SPRING).add_function(
                 "f", *ENDS, lambda t, *motion: ([0 if t < 0.1 else np.nan, 0, 0], [0, 0, 0])).simulate()
         self.assertLess(caught.exception.run.time[-1], 0.11)
-        self.assertIn("no finite load", caught.exception.run.incomplete)
+        self.assertIn("a load that is not finite", caught.exception.run.incomplete)
         with self.assertRaisesRegex(fn.InputError, "block.nose"):
             fn.Model(SPRING).add_function("f", ENDS[0], "block.nose", linear)
 
@@ -260,7 +260,7 @@ class Errors(InFolder):
 
     def test_warnings_are_pythons(self):
         heavy = ["geometry.materials.aluminium.density=1.048e6 kg/m^3"]
-        with self.assertWarnsRegex(fn.ResultWarning, "was it a weight density in lbf/in"):
+        with self.assertWarnsRegex(fn.ResultWarning, "was it given as a weight density in lbf/in"):
             fn.Study("cantilever", heavy).mesh()
 
 

@@ -567,7 +567,7 @@ class WithoutWebGL(Page, unittest.TestCase):
             run.unlink()
         subprocess.run([FLEXNECK, "report", "-q", "-o", folder], check=True)
         page = (folder / "report.html").read_text()
-        self.assertIn("Not drawn:", page)
+        self.assertIn("Not drawn, since this is missing:", page)
         type(self).browser = open_browser("disable-3d-apis", "disable-gpu")
         self.addCleanup(self.browser.quit)
         self.browser.get((folder / "report.html").as_uri())

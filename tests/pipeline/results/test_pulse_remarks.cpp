@@ -28,12 +28,12 @@ std::vector<std::string> paper_remarks() {
 TEST_CASE("what the report says of pulses follows from their origins and from the corridors") {
   const Study& study = built_in();
   CHECK(joined(pulse_remarks(study)) ==
-        "The pulse 'flexion' is synthetic by the study and, as given there, inside the corridor "
-        "of 572.33 flexion. The table of velocities tells how cases scale it.\n"
-        "The pulse 'extension' is synthetic by the study and, as given there, inside the corridor "
-        "of 572.33 extension. The table of velocities tells how cases scale it.\n");
+        "The pulse 'flexion' is synthetic according to the study and, without scaling, inside the "
+        "corridor of 572.33 flexion. The table of velocities shows how the cases scale it.\nThe "
+        "pulse 'extension' is synthetic according to the study and, without scaling, inside the "
+        "corridor of 572.33 extension. The table of velocities shows how the cases scale it.\n");
   CHECK_THAT(joined(peak_table(study, {}).notes),
-             Contains("by the study: 'flexion' synthetic, 'extension' synthetic."));
+             Contains("according to the study: 'flexion' synthetic, 'extension' synthetic."));
 
   const TemporaryFolder folder;
   std::ofstream(folder / "mine.csv") << "time [ms], deceleration [gn]\n0, 0\n10, 20\n50, 0\n";
@@ -46,9 +46,10 @@ TEST_CASE("what the report says of pulses follows from their origins and from th
          "times = []\ndeceleration = []\n";
   const Study own = read_study(folder / "mine.toml", {});
   const std::string remarks = joined(pulse_remarks(own));
-  CHECK_THAT(remarks,
-             Contains("'flexion' is published by the study and, as given there, outside") &&
-                 !Contains("inside"));
+  CHECK_THAT(
+      remarks,
+      Contains("'flexion' is published according to the study and, without scaling, outside") &&
+          !Contains("inside"));
   CHECK_THAT(joined(peak_table(own, {}).notes), Contains("'flexion' published"));
   CHECK_THAT(joined(paper_remarks()), !Contains("synthetic") && !Contains("inside"));
 }

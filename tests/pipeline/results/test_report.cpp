@@ -137,7 +137,7 @@ TEST_CASE("the page stands by itself, shows what there is, and is the same each 
   CHECK_THAT(page, !Contains("<img src=x") && !Contains("src=\"http") && !Contains("<link"));
   CHECK_THAT(page, Contains("default-src 'none'"));
   CHECK_THAT(page, !Contains(folder.path().string()));
-  CHECK_THAT(page, Contains("Figure 11.") && Contains("Not drawn: there is not"));
+  CHECK_THAT(page, Contains("Figure 11.") && Contains("Not drawn, since this is missing:"));
   CHECK(page_of(folder.path()) == page);
 }
 

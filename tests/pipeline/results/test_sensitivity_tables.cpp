@@ -40,7 +40,7 @@ fe_modal::Sensitivities sample() {
 }  // namespace
 
 TEST_CASE("tables of sensitivities name what is differentiated") {
-  const std::vector<ResultTable> tables = sensitivity_tables(sample(), {"Left out is x: why."});
+  const std::vector<ResultTable> tables = sensitivity_tables(sample(), {"Omitted: x: why."});
   REQUIRE(tables.size() == 4);
   CHECK(std::all_of(tables.begin(), tables.end(), is_of_sensitivities));
   CHECK(tables[0].columns.size() == 7);

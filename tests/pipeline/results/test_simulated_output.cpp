@@ -113,8 +113,8 @@ TEST_CASE("outputs that neither the disk nor memory would take are refused at th
   const Eigen::Index giant = Eigen::Index{1} << 50U;
   CHECK_THROWS_AS(append_first("", giant), InputError);
   CHECK_THROWS_WITH(append_first("", giant), Contains("the history of 1125899906842624 outputs") &&
-                                                 Contains("of the disk") &&
-                                                 Contains("make the output interval longer"));
+                                                 Contains("of disk space") &&
+                                                 Contains("increase the output interval"));
   CHECK_NOTHROW(append_first(kFiltered, 1000));
   CHECK(fs::directory_iterator(folder.path()) != fs::directory_iterator());
   CHECK_FALSE(fs::exists(folder / "a.h5"));

@@ -146,8 +146,8 @@ TEST_CASE("a result of a stage before is refused once a file that it was made fr
     if (other.empty())
       CHECK_NOTHROW(look());
     else
-      CHECK_THROWS_WITH(look(), "mesh.h5: was made from another " + other +
-                                    " than there is now; make it again with 'flexneck mesh'");
+      CHECK_THROWS_WITH(look(), "mesh.h5: was made from a different " + other +
+                                    " than the current one; make it again with 'flexneck mesh'");
   };
   SECTION("what a script includes") {
     write(folder / "part.geo", "W = 1;");

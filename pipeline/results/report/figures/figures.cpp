@@ -121,9 +121,8 @@ Figure mesh_figure(const Boundary& boundary) {
   std::size_t elements = 0;
   for (const mesher::ElementBlock& block : boundary.mesh.blocks) elements += block.size();
   figure.remark = fmt::format(
-      "{} elements and {} nodes; 'flexneck mesh --preset paper' makes about as many as the paper "
-      "has. "
-      "Light: {}.",
+      "{} elements and {} nodes; 'flexneck mesh --preset paper' makes about as many as in the "
+      "paper. Light: {}.",
       elements, boundary.mesh.nodes.size(), boundary.mesh.materials.front().name);
   figure.csv = csv_of(boundary, mesher::positions_of(boundary.mesh), "material",
                       [&](std::int32_t, const mesher::Facet& side) {
@@ -243,8 +242,9 @@ std::string html_of(const DrawnFigure& drawn) {
   }
   html += "<figcaption>" + (is_of_paper ? "<b>" + name + ".</b> " : "") +
           html_text(figure.caption) + ". <span class=\"note\">" + html_text(figure.remark);
-  html += drawn.svg.empty() ? " Not drawn: there is not " + html_text(figure.missing) + "."
-                            : " Data: figures/" + stem_of(figure) + ".csv.";
+  html += drawn.svg.empty()
+              ? " Not drawn, since this is missing: " + html_text(figure.missing) + "."
+              : " Data: figures/" + stem_of(figure) + ".csv.";
   return html + "</span></figcaption>\n</figure>\n";
 }
 

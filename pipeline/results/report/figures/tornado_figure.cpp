@@ -115,10 +115,11 @@ std::string panel_script(const Panel& panel, std::size_t index, double reach,
 }  // namespace
 
 Figure tornado_figure(const Results& results) {
-  Figure figure{.caption = "What one per cent of each input does, in per cent", .name = "tornado"};
+  Figure figure{.caption = "Effect of a change of each input by 1 %, in per cent",
+                .name = "tornado"};
   const std::vector<Panel> panels = panels_of(results);
   if (panels.empty()) {
-    figure.missing = "sensitivities.json, which 'flexneck modes --sensitivity' makes";
+    figure.missing = "sensitivities.json, which 'flexneck modes --sensitivity' creates";
     return figure;
   }
   double reach = 0;

@@ -128,10 +128,10 @@ flexneck.Body = class {
              azimuth: flexneck.isLateral(displacements(frameAt(start))) ||
                  /lateral/.test(motion.name) ? 0 : -Math.PI / 2},
       width: 2.4 * this.length,
-      notes: [motion.plates && 'The surface is drawn evenly between plates; slits are not drawn.',
-              motion.coordinates === '' && 'A rigid neck: the undeformed one stands for it.',
-              isPendulum && 'Of the arm only the end is drawn; the head is the ellipsoid of its mass and inertia, its centre a dot.',
-              loads.length > 0 && 'The arrow is the load, its length in proportion.',
+      notes: [motion.plates && 'The surface is interpolated between the plates; slits are not drawn.',
+              motion.coordinates === '' && 'The neck is rigid; the undeformed neck is drawn.',
+              isPendulum && 'Only the end of the arm is drawn; the head is the ellipsoid of its mass and inertia, with a dot at its centre.',
+              loads.length > 0 && 'The arrow is the load; its length is proportional to it.',
       ].filter(Boolean),
       /** Looked for when it is first shown: it takes a while. */
       most: () => most ?? findMost(),

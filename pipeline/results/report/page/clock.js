@@ -35,7 +35,7 @@ flexneck.Clock = class {
   }
 
   offerSpeeds(kind) {
-    const speeds = kind === 'mode' ? [[0.2, '5 s a cycle'], [0.4, '2.5 s a cycle'], [1, '1 s a cycle']]
+    const speeds = kind === 'mode' ? [[0.2, '5 s per cycle'], [0.4, '2.5 s per cycle'], [1, '1 s per cycle']]
         : [[0.01, '1/100'], [0.02, '1/50'], [0.05, '1/20'], [0.1, '1/10'], [0.25, '1/4'], [0.5, '1/2'], [1, 'real time']];
     const usual = {mode: 0.4, pendulum: 0.1}[kind] || 0.5;
     this.control('speed').replaceChildren(...speeds.map(([speed, text]) => {

@@ -185,7 +185,7 @@ flexneck.showPictures = (canvas) => {
   });
   viewer.replaceChildren(
       element('p', {class: 'warning'}, figures.length > 0
-          ? 'This browser has no WebGL: pictures stand in for the moving neck.'
+          ? 'This browser has no WebGL: pictures are shown instead of the moving neck.'
           : 'This browser has no WebGL, so the neck cannot be shown here.'),
       element('div', {class: 'figures stand-in'}, ...figures));
 };

@@ -30,13 +30,14 @@ TEST_CASE(
     FmuRun run(fmu);
     CHECK(run.step(0, 1e-3) == fmi3Error);
     CHECK_THAT(run.logged,
-               Contains("expected an instance in step mode, found one before initialization"));
+               Contains("expected an FMU instance in step mode, found it before initialization"));
     CHECK_THROWS_WITH(run.set("nod", 1), Contains("neither a parameter nor an input"));
     run.set("body.head.mass", -1);
     CHECK_THROWS_WITH(run.initialize(), Contains("body 'head'"));
     REQUIRE(run.call("fmi3Reset") == fmi3OK);
     run.initialize(1e-6);
-    CHECK_THROWS_WITH(run.set("body.head.mass", 3), Contains("stays after initialization"));
+    CHECK_THROWS_WITH(run.set("body.head.mass", 3),
+                      Contains("cannot be changed after initialization"));
     CHECK(run.step(0.5, 1e-3) == fmi3Error);
     CHECK(run.step(0, -1) == fmi3Error);
     CHECK(run.call("fmi3EnterEventMode") == fmi3Error);
@@ -52,7 +53,7 @@ TEST_CASE(
   file.seekp(1000);
   file.put(static_cast<char>(byte ^ 1));
   file.close();
-  CHECK_THROWS_WITH(FmuRun(LoadedFmu(folder / "fmu")), Contains("model.bin: expected the bytes"));
+  CHECK_THROWS_WITH(FmuRun(LoadedFmu(folder / "fmu")), Contains("model.bin: expected the file"));
 }
 
 TEST_CASE("null arrays, and saved states that are damaged or of another model, are refused") {
@@ -101,7 +102,7 @@ marker = "block.center"
 )")));
   FmuRun other(other_fmu);
   other.initialize();
-  CHECK_THROWS_WITH(other.state_of(bytes), Contains("or one of another model"));
+  CHECK_THROWS_WITH(other.state_of(bytes), Contains("or belongs to another model"));
   fmi3FMUState same = run.state_of(bytes);
   CHECK(run.bytes_of(same) == bytes);
   run.free(same);

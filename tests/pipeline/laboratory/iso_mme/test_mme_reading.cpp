@@ -102,8 +102,8 @@ TEST_CASE("units of the standard and others of the same dimension are taken, gra
   CHECK(unit("m/s\xb2") == 1);
   CHECK(unit("mm/s^2") == Approx(1e-3).epsilon(1e-15));
   CHECK_THROWS_WITH(unit("m/s"), Contains("test.002:4: channel 11HEADCG00H3ACXA: ") &&
-                                     Contains("measures something else"));
-  refuses(with(kMmeMoment, ":Nm", ":lbf"), "measures something else");
+                                     Contains("has another dimension"));
+  refuses(with(kMmeMoment, ":Nm", ":lbf"), "has another dimension");
   refuses(with(kMmeMoment, ":Nm", ":furlong-ish"), "expected a unit");
   CHECK_THROWS_WITH(in_unit(read_curve(folder.path(), kMoment), "N"), Contains("something else"));
   folder.write("Channel/test.001", with(kMmeMoment, ":Nm", ":NOVALUE"));
@@ -125,7 +125,7 @@ TEST_CASE("the last letter of a code says what the channel has passed, and it is
   CHECK(needs('B', ChannelClass::cfc180));
   CHECK_FALSE(needs('D', ChannelClass::cfc60));
   for (const char narrow : {'C', 'D', 'L', 'S', '2', 'k'})
-    CHECK_THROWS_WITH(needs(narrow, ChannelClass::cfc600), Contains("CFC 600 cannot be had from"));
+    CHECK_THROWS_WITH(needs(narrow, ChannelClass::cfc600), Contains("CFC 600 cannot be obtained"));
   // A CSV file does not state its filter.
   folder.write("plain.csv", "time [s],a [N]\n0,1\n1,2\n");
   CHECK(needs_filter(read_curve(folder / "plain.csv", ""), ChannelClass::cfc60));
@@ -137,7 +137,7 @@ TEST_CASE("a table over time may be a channel, one over anything else not") {
   CHECK(columns.x.front() == -0.0002);
   CHECK(columns.y.at(3) == 8.21e-3);
   CHECK_THROWS_WITH(read_csv_columns(folder.path(), "m", "N*m", kMoment),
-                    Contains("channels of ISO-MME are over time"));
+                    Contains("whose channels are over time"));
   CHECK_THROWS_WITH(read_csv_columns(folder.path(), "s", "N", kMoment), Contains("something else"));
 }
 
@@ -159,9 +159,9 @@ TEST_CASE("a channel's file that cannot be is refused with its line") {
   refuses(with(kMmeMoment, "Time of first sample", ""), "001:8: expected \"Key :value\"");
   refuses(with(kMmeMoment, "Number of samples ", "Samples"), "\"Number of samples :");
   refuses(with(kMmeMoment, "8.210000E-3\n", ""), "001:9: expected as many samples as the header");
-  refuses(kMmeMoment + "1\n", "found 7; is the file whole?");
-  refuses(kMmeMoment.substr(0, kMmeMoment.size() - 14), "found 5; is the file whole?");
-  refuses(kMmeMoment.substr(0, kMmeMoment.find("-6.77")), "found 0; is the file whole?");
+  refuses(kMmeMoment + "1\n", "found 7; the file may be truncated");
+  refuses(kMmeMoment.substr(0, kMmeMoment.size() - 14), "found 5; the file may be truncated");
+  refuses(kMmeMoment.substr(0, kMmeMoment.find("-6.77")), "found 0; the file may be truncated");
   refuses(with(kMmeMoment.substr(0, kMmeMoment.find("-6.77")), ":6\n", ":1\n") + "1\n",
           "expected at least two samples");
   refuses(with(kMmeMoment, "8.210000E-3", "NOVALUE"), "001:14: expected a sample, found NOVALUE");
@@ -185,7 +185,7 @@ TEST_CASE("a test that is not whole is refused, and a code that is not there wit
   refused("", "", "there are several channels; choose one of '11NECKUP00H3MOYP', '11HEADCG");
   refused("Channel/test.003", kMoment, "test.003: no such file");
   refused("Channel", kMoment,
-          "expected a folder with one test of ISO-MME, a file .mme, found none");
+          "expected a folder with one ISO-MME test, that is, one .mme file, found none");
   folder.write("Channel/test.chn", with(kMmeIndex, ":2\n", ":3\n"));
   refused("", kMoment, "test.chn:2: expected as many channels as the index says, found 2");
   folder.write("Channel/test.chn", with(kMmeIndex, kMoment, "11NECKUP"));
@@ -201,8 +201,8 @@ TEST_CASE("a test that is not whole is refused, and a code that is not there wit
   refused("", kMoment, "test.001: no such file");
   folder.write("other.mme", kMmeTest);
   refused("", kMoment, "found 2; name one of them");
-  refused("other.mme", kMoment, "expected the index of its channels, Channel/other.chn");
+  refused("other.mme", kMoment, "expected the channel index Channel/other.chn");
   folder.write("test.mme", "time [s],a [N]\n0,1\n");
-  refused("test.mme", kMoment, "test.mme: expected lines \"Key :value\" of a test");
+  refused("test.mme", kMoment, "test.mme: expected an ISO-MME test with lines \"Key :value\"");
   refused("none.mme", kMoment, "none.mme: no such file");
 }

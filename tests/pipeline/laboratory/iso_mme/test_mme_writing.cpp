@@ -118,7 +118,8 @@ TEST_CASE("a folder that holds anything else is left as it is") {
   const TemporaryFolder folder;
   const MmeTest test{
       "a", "", "", {}, {{"11NECKUP00H3MOYB", "", "N*m", 0, 1e-4, VectorXd::Ones(2)}}};
-  CHECK_THROWS_WITH(write_mme_test(folder / "a.mme", test), Contains("is a folder of its own"));
+  CHECK_THROWS_WITH(write_mme_test(folder / "a.mme", test),
+                    Contains("is written to a folder of the same name"));
   CHECK_THROWS_WITH(write_mme_test(folder / "b/a/a.mme", test), Contains("cannot be written"));
   fs::create_directory(folder / "a");
   testing::write_test_file(folder / "a/notes.txt", "mine");
@@ -201,12 +202,12 @@ TEST_CASE("'flexneck export' writes a run, and a rating reads it again") {
   const Curve back = read_curve(folder / "swing", "002001000000DS00");
   CHECK(same_bits(csv.values.head(back.values.size()), back.values));
   check_refused(run_flexneck("export -q " + run + " --to " + in + "/swing.mme"),
-                "a folder of its own");
+                "a folder of the same name");
   check_refused(run_flexneck("export -q " + run + " --to " + in + "/swing.msh"),
-                ".mme (the channels of a run as ISO-MME)");
+                ".mme (channels of a run as an ISO-MME test)");
   check_refused(run_flexneck("export -q --to " + in + "/swing/swing.mme"),
-                "name the file that holds it");
-  check_refused(run_flexneck("export -q " + run), "name the file to write");
+                "name the file to export");
+  check_refused(run_flexneck("export -q " + run), "expected --to FILE");
   check_refused(run_flexneck("export -q " + run + " --set a=1 --to " + in + "/b/b.mme"), "--set");
   check_refused(run_flexneck("export -q " + run + " " + run + " --to " + in + "/b/b.mme"),
                 "expected one file");

@@ -180,11 +180,12 @@ TEST_CASE("a channel of a test of ISO-MME stands for a CSV file, filtered as its
     CHECK(read(wider, asked).test.curves.at(0).curve.values == filtered);
   }
   CHECK_THROWS_WITH(read('D', asked), Contains("test.lab.curve.1.filter: ") &&
-                                          Contains("has passed \"CFC 60\" already"));
+                                          Contains("is already filtered with \"CFC 60\""));
   CHECK_THAT(measured_curve_table({read('D', "")}).notes.at(0),
-             Contains("'head rotation' has passed CFC 60 as measured, no filter as computed"));
+             Contains("'head rotation' is filtered with CFC 60 in the measurement and with no "
+                      "filter in the computation"));
   own.refuses("[[test.curve]]\nchannel = \"head rotation\"\ntable = \"labD\"\nunit = \"deg\"\n",
-              "names the unit 'deg' already");
+              "already gives the unit 'deg'");
   own.refuses("[[test.curve]]\nchannel = \"head rotation\"\ntable = \"labD\"\ncolumn = \"x\"\n",
               "there is no channel 'x'");
 }
@@ -193,7 +194,7 @@ TEST_CASE("measured data that cannot be is refused with what there is") {
   const OwnTest own;
   own.write_curve("lab.csv", 1, 0);
   own.refuses("", "expected this key, or [[test.curve]]");
-  own.refuses(kCurve + "unit = \"deg\"\n", "the file names the unit 'deg' already");
+  own.refuses(kCurve + "unit = \"deg\"\n", "the file already gives the unit 'deg'");
   own.refuses("[[test.curve]]\nchannel = \"head rotation\"\ntable = \"no.csv\"\n", "no.csv");
   own.write("slow.csv", "time [s],a [deg]\n0,1\n0.1,2\n0.2,3\n");
   own.write("uneven.csv", "time [s],a [deg]\n0,1\n0.001,2\n0.003,3\n");

@@ -138,9 +138,9 @@ TEST_CASE("'flexneck rate' takes columns by name, other units and plain files") 
   CHECK_THAT(folder.run("rate many.csv many.csv --channel 'Fx, upper'").text,
              Contains("overall R    1.000000"));
 
-  check_refused(folder.run("rate reference.csv plain.csv"), "tell it with --unit");
+  check_refused(folder.run("rate reference.csv plain.csv"), "set it with --unit");
   check_refused(folder.run("rate reference.csv computed.csv --unit rad"), "--unit: both files");
-  check_refused(folder.run("rate reference.csv plain.csv --unit N"), "measures something else");
+  check_refused(folder.run("rate reference.csv plain.csv --unit N"), "has another dimension");
   check_refused(folder.run("rate reference.csv plain.csv --channel 'head angle'"), "plain.csv:1:");
   check_refused(folder.run("rate reference.csv many.csv"), "choose one of 'Fx, upper', 'phi'");
   check_refused(folder.run("rate many.csv many.csv --channel phy"), "did you mean 'phi'?");
@@ -159,7 +159,7 @@ TEST_CASE("'flexneck rate' rates the interval that it is told, or what both curv
   check_refused(folder.run("rate reference.csv computed.csv --from '-1 ms'"), "covers 0 to");
   check_refused(folder.run("rate reference.csv computed.csv --from 5"), "--from: expected a unit");
   check_refused(folder.run("rate reference.csv computed.csv --to '5 m'"), "--to: expected a unit");
-  check_refused(folder.run("rate reference.csv computed.csv --to '5 ms'"), "a rating takes 100 to");
+  check_refused(folder.run("rate reference.csv computed.csv --to '5 ms'"), "expected 100 to");
   check_refused(folder.run("rate reference.csv computed.csv --from '3 ms' --to '2 ms'"),
                 "nothing is left");
 }
@@ -178,15 +178,15 @@ TEST_CASE("'flexneck rate' resamples to 10 kHz, and says so") {
                                Contains("overall R    1.000000"));
   folder.write("coarser.csv", ramp(99));
   check_refused(folder.run("rate fine.csv coarser.csv"),
-                "coarser.csv: 'F' [N]: a rating takes samples at most 0.001 s apart");
+                "coarser.csv: 'F' [N]: expected samples at most 0.001 s apart");
 }
 
 TEST_CASE("'flexneck rate' refuses bad input in one line that says where") {
   const RatedFolder folder;
   const std::string head = "time [s],head angle [rad]\n";
   const std::string good = bytes_of(folder.path("computed.csv"));
-  folder.refuses("", "bad.csv:0: expected a line with the columns' names");
-  folder.refuses("# nothing\n\n", "expected a line with the columns' names");
+  folder.refuses("", "bad.csv:0: expected a header line with the names");
+  folder.refuses("# nothing\n\n", "expected a header line with the names");
   folder.refuses(head, "expected at least two rows");
   folder.refuses(head + "0,1\n", "expected at least two rows");
   folder.refuses(head + "0,1\n0.1,nan\n", "bad.csv:3: expected a finite number, found \"nan\"");
@@ -198,13 +198,15 @@ TEST_CASE("'flexneck rate' refuses bad input in one line that says where") {
   folder.refuses(head + "0,1\n0.1,2,3\n", "expected 2 cells");
   folder.refuses("time [s];head angle [rad]\n0;1\n", "expected the time and at least one column");
   folder.refuses("time [s],\"head angle [rad]\n0,1\n", "a quote");
-  folder.refuses("time [s],head angle [rad]\n0,\"\"22\n", "expected a comma behind the quote");
-  folder.refuses("time,head angle [rad]\n0,1\n", "expected the time and its unit first");
+  folder.refuses("time [s],head angle [rad]\n0,\"\"22\n",
+                 "expected a comma after the closing quote");
+  folder.refuses("time,head angle [rad]\n0,1\n",
+                 "expected the time with its unit in the first column");
   folder.refuses("time [kg],head angle [rad]\n0,1\n1,2\n", "bad.csv:1: column \"time [kg]\"");
   folder.refuses("time [s],a [rad],a [rad]\n0,1,1\n", "several columns 'a'",
                  "--channel a --reference-channel 'head angle'");
   folder.refuses("0,1,2\n1,2,3\n", "there are several columns");
-  folder.refuses("time [s],angle\n" + good.substr(head.size()), "names no unit of its values");
+  folder.refuses("time [s],angle\n" + good.substr(head.size()), "gives no unit of its values");
   folder.refuses("time [s],angle [N]\n" + good.substr(head.size()),
                  "bad.csv: 'angle' [N]: expected a unit such as 'rad', found 'N'");
   folder.refuses("time [s],angle [rad/s]\n" + good.substr(head.size()), "something else");
@@ -220,13 +222,13 @@ TEST_CASE("'flexneck rate' refuses bad input in one line that says where") {
   check_refused(folder.run("rate zero.csv computed.csv"), "the reference curve is constant");
   const std::string shifted = "time [s],angle [rad]\n10,0\n10.001,1\n10.002,3\n";
   folder.refuses(shifted, "nothing is left to rate");
-  check_refused(folder.run("rate reference.csv"), "name two files");
+  check_refused(folder.run("rate reference.csv"), "expected two files");
   check_refused(folder.run("rate reference.csv computed.csv zero.csv"), "found 3");
   check_refused(folder.run("rate reference.csv missing.csv"), "missing.csv");
   check_refused(folder.run("rate reference.csv ."), ".: ");
   check_refused(folder.run("rate reference.csv computed.csv --set a=1"), "--set belongs to");
   check_refused(folder.run("info reference.csv --channel a"),
-                "--channel belongs to the command rate");
+                "--channel is an option of the command rate");
   check_refused(folder.run("rate reference.csv computed.csv -o ''"), "expected a folder");
   // A refused command leaves no files.
   check_refused(folder.run("rate zero.csv computed.csv -o none"), "constant");
@@ -263,7 +265,7 @@ TEST_CASE("'flexneck rate' takes channels of ISO-MME, says what they have passed
   INFO(outcome.text);
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.text,
-             Contains("reference  lab: '11HEAD0000H3ANYC' [deg], CFC 180 by its code") &&
+             Contains("reference  lab: '11HEAD0000H3ANYC' [deg], CFC 180 by its channel code") &&
                  !Contains("Warning"));
   const auto overall = [&](const char* out) {
     return cell(nlohmann::json::parse(bytes_of(folder.path(out))).at("tables").at(0), 4);
@@ -271,8 +273,8 @@ TEST_CASE("'flexneck rate' takes channels of ISO-MME, says what they have passed
   CHECK(overall("b/rating.json") == overall("a/rating.json"));
   CHECK_THAT(bytes_of(folder.path("b/rating.json")), Contains("reference/lab.001"));
   CHECK_THAT(folder.run("rate lab/lab.mme run/Channel/run.001").text,
-             Contains("Warning: the channels have passed different filters: ") &&
-                 Contains("unfiltered by its code"));
+             Contains("Warning: the channels were filtered differently: ") &&
+                 Contains("unfiltered by its channel code"));
 }
 
 TEST_CASE("'flexneck nij' filters no load a second time that has passed CFC 600 by its code") {
@@ -296,7 +298,7 @@ TEST_CASE("'flexneck nij' filters no load a second time that has passed CFC 600 
     CHECK_THAT(folder.run(write('A', spike) + shear).text, Contains(nij(once.maxCoeff())));
     CHECK_THAT(folder.run(write('B', spike) + shear).text, Contains(nij(3000)));
   }
-  check_refused(folder.run(write('C', spike)), "CFC 600 cannot be had from");
+  check_refused(folder.run(write('C', spike)), "CFC 600 cannot be obtained");
   check_refused(folder.run(write('A', spike) + " --shear 11NECKUP00H3FOXB"),
                 "expected the times of");
   check_refused(folder.run(write('A', spike) + " --shear 11NECKUP00H3MOYB"), "something else");
@@ -324,14 +326,14 @@ TEST_CASE("'flexneck nij' gives the four combinations of loads in a file") {
              Contains(fmt::format("{:.6f}", 3403 / 4287.0 + 67.5 / 67)));
 
   check_refused(folder.run("nij loads.csv --force Fz"), "--moment is required");
-  check_refused(folder.run("nij --force Fz --moment My"), "name one file");
+  check_refused(folder.run("nij --force Fz --moment My"), "expected one file");
   check_refused(folder.run("nij loads.csv --force My --moment My"), "something else");
   check_refused(folder.run(command + " --dummy 95th"), "dummy");
-  check_refused(folder.run(command + " --from 1s"), "--from belongs to the command rate");
+  check_refused(folder.run(command + " --from 1s"), "--from is an option of the command rate");
   folder.write("loads.csv", table("time [ms],Fz [N],My [N*m]", {constant(1), constant(1)}, 0.2));
   check_refused(folder.run(command), "loads.csv: CFC 600 needs at least 6000 samples");
   folder.write("loads.csv", "time [s],Fz [N],My [N*m]\n0,1,1\n1e-4,1,1\n3e-4,2,2\n");
   check_refused(folder.run(command), "samples at equal intervals");
   folder.write("loads.csv", "0,1\n1,2\n");
-  check_refused(folder.run(command), "expected a line with the columns' names");
+  check_refused(folder.run(command), "expected a header line with the names");
 }

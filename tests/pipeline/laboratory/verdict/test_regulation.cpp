@@ -185,16 +185,16 @@ TEST_CASE("a regulation that cannot be is refused in one line") {
       refusal(changed("time_of_peak = [\"57", "time_of_peek = [\"57")),
       Contains("test.flexion.rotation.time_of_peek: unknown key") && Contains("'time_of_peak'"));
   CHECK_THAT(refusal(changed("[\"64 deg\", \"78 deg\"]", "[\"78 deg\", \"64 deg\"]")),
-             Contains("test.flexion.rotation.peak: expected the lower limit first"));
+             Contains("test.flexion.rotation.peak: expected a lower limit"));
   CHECK_THAT(refusal(changed("[\"64 deg\", \"78 deg\"]", "[\"64 deg\"]")),
              Contains("test.flexion.rotation.peak"));
   CHECK_THAT(refusal(changed("[\"64 deg\"", "[\"64 ms\"")), Contains("test.flexion.rotation.peak"));
   CHECK_THAT(refusal(changed("low = [\"22.50 gn\"", "low = [\"28 gn\"")),
-             Contains("test.flexion.pulse.high: expected more than 'low'"));
+             Contains("test.flexion.pulse.high: expected values above those of 'low'"));
   CHECK_THAT(refusal(changed("low = [\"22.50 gn\", ", "low = [")),
              Contains("test.flexion.pulse.low"));
   CHECK_THAT(refusal(changed("times = [\"10 ms\", \"20 ms\"", "times = [\"20 ms\", \"10 ms\"")),
-             Contains("test.flexion.pulse.times: expected one or more times"));
+             Contains("test.flexion.pulse.times: expected at least one time"));
   CHECK_THAT(refusal(changed("[\"-59 lbf*ft\", \"-39 lbf*ft\"]", "[\"39 lbf*ft\", \"59 lbf*ft\"]")),
              Contains("test.extension.moment.peak: expected negative moments"));
   CHECK_THAT(refusal(changed("[\"65 lbf*ft\"", "[\"-65 lbf*ft\"")),
@@ -209,7 +209,7 @@ TEST_CASE("a regulation that cannot be is refused in one line") {
              Contains("pendulum_filter"));
   CHECK_THAT(refusal(changed("source = ", "sources = ")), Contains("source: expected this key"));
   CHECK_THAT(refusal(changed("name = \"extension\"", "name = \"flexion\"")),
-             Contains("test: test '572.33 flexion' is there twice"));
+             Contains("test: test '572.33 flexion' occurs twice"));
 }
 
 TEST_CASE("a test that no regulation has is refused with the names there are") {

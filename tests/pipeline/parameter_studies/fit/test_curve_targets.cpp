@@ -151,9 +151,9 @@ TEST_CASE("a corridor is a window at each of its points") {
       "[fit.target.corridor]\ntimes = [\"0 ms\", \"9 ms\"]\nlower = [0, 2]\nupper = [1, 1]\n"
       "unit = \"deg\"\n",
       "crosses itself");
-  lab.refuses(kTable + corridor, "expected none beside a corridor");
-  lab.refuses(kDegree + corridor, "expected none of a corridor");
-  lab.refuses("to = \"900 ms\"\n" + corridor, "that the corridor covers");
+  lab.refuses(kTable + corridor, "has no effect beside a corridor");
+  lab.refuses(kDegree + corridor, "has no effect on a corridor");
+  lab.refuses("to = \"900 ms\"\n" + corridor, "within those of the corridor");
   lab.refuses(
       "[fit.target.corridor]\ntimes = [\"0 ms\", \"9 ms\"]\nlower = [0, 1]\nupper = [1, 1]\n"
       "unit = \"deg\"\n",

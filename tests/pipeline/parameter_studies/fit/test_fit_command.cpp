@@ -70,18 +70,18 @@ TEST_CASE("closed-form slopes and differences come to the same fit") {
   CHECK_THAT(require_done(fit(study, folder / "closed")).text, Contains("in closed form"));
   CHECK_THAT(
       require_done(fit(study, folder / "differences", "--set modes.basis=craig-bampton")).text,
-      Contains("slopes by differences"));
+      Contains("derivatives by finite differences"));
   const std::string rotation =
       target("pendulum.flexion.head_rotation", "20 deg", "standard_deviation = \"1000 deg\"\n");
   CHECK_THAT(
       require_done(fit(write_beam_study(folder.path(), of_modes + rotation), folder / "mixed"))
           .text,
-      Contains("of the modes in closed form, others by differences"));
+      Contains("in closed form for modes, otherwise by finite differences"));
   CHECK_THAT(
       require_done(fit(write_beam_study(folder.path(), of_modes + rotation + "held_out = true\n"),
                        folder / "held-out"))
           .text,
-      Contains("slopes in closed form"));
+      Contains("derivatives in closed form"));
   const nlohmann::json one = table_in(folder / "closed", "fit parameters");
   for (const char* const way : {"differences", "mixed", "held-out"}) {
     const nlohmann::json other = table_in(folder / way, "fit parameters");
@@ -97,7 +97,8 @@ TEST_CASE("what no target fixes makes a fit not unique in its first line") {
                                             target("pendulum.flexion.system_frequency", "5 Hz"));
   INFO(outcome.text);
   CHECK(outcome.exit_code == 0);
-  CHECK_THAT(outcome.text, Contains("Not unique: ") && Contains("no target fixes how"));
+  CHECK_THAT(outcome.text,
+             Contains("Not unique: ") && Contains("no target determines the combination of"));
   CHECK_THAT(outcome.text, Contains("The study states no choices"));
 }
 
@@ -153,7 +154,7 @@ TEST_CASE("a fit is the same for any threads, and goes on with what is there") {
   CHECK(bytes_of(folder / "one/fit.json") == bytes_of(folder / "two/fit.json"));
   CHECK_THAT(two.text, Contains("Share of the prior that meets the targets"));
   CHECK(table_in(folder / "one", "fit choices").at("rows").at(0).at(0) == "The case was picked.");
-  CHECK_THAT(two.text, Contains("Chosen with the targets in sight: (1) The case was picked."));
+  CHECK_THAT(two.text, Contains("Chosen with knowledge of the targets: (1) The case was picked."));
   for (const char* const name : {"fit-targets.svg", "fit-profiles.svg", "fit-history.svg"})
     CHECK_THAT(bytes_of(folder / "one" / name), Contains("</svg>"));
   // A row that was removed is computed again, and the results do not change.
@@ -174,7 +175,7 @@ TEST_CASE("Ctrl-C keeps the fits that are done") {
   const CommandOutcome outcome = run_shell("timeout --foreground -s INT 1.5 " + flexneck_program() +
                                            " " + fit(study, folder / "out"));
   INFO(outcome.text);
-  CHECK_THAT(outcome.text, Contains("stopped: what is done is kept"));
+  CHECK_THAT(outcome.text, Contains("stopped; completed fits are kept"));
   CHECK(bytes_of(folder / "out/fit-rows/history.txt").size() > 100);
   CHECK_FALSE(fs::exists(folder / "out/fit.json"));
 }
@@ -184,11 +185,12 @@ TEST_CASE("what is wrong with a fit is told in one line") {
       target("pendulum.flexion.head_rotation", "17 deg", "standard_deviation = \"1 deg\"\n");
   check_refused(outcome_of(""), "expected [fit]");
   check_refused(outcome_of("[fit]\n" + rotation), "fit.parameter: expected at least one");
-  check_refused(outcome_of("[fit]\n" + kMass), "expected at least one that is not held out");
+  check_refused(outcome_of("[fit]\n" + kMass),
+                "expected at least one target that contributes to chi-squared");
   check_refused(outcome_of("[fit]\nevaluations = 9\n" + kMass + rotation),
-                "expected with method = \"global\" only");
+                "has an effect only with method = \"global\"");
   check_refused(outcome_of("[fit]\n" + kMass + rotation + "must_hold = true\n"),
-                "expected of a window or a corridor");
+                "expected only for a window or a corridor");
   check_refused(
       outcome_of("[fit]\n[[fit.parameter]]\nname = \"g\"\nkey = \"case.far.impact_velocity\"\n"
                  "unit = \"m/s\"\nfrom = 1\nto = 5\n" +
@@ -199,21 +201,21 @@ TEST_CASE("what is wrong with a fit is told in one line") {
       "torsion 9");
   check_refused(outcome_of(kRubber + "[fit]\n" + kModulus +
                            target("modes.frequency_by_rank.bending 9", "3 Hz")),
-                "raise modes.count");
+                "increase modes.count");
   check_refused(outcome_of("[fit]\n" + kMass + target("modes.frequency_by_rank.bending", "3 Hz")),
                 "kind of mode and its rank");
   check_refused(outcome_of("[fit]\n[[fit.parameter]]\nname = \"m\"\nkey = \"body.head.mass\"\n"
                            "unit = \"kg\"\nfrom = 5\nto = 6\n" +
                            rotation),
-                "expected bounds that hold the start");
+                "expected bounds that contain the start");
   check_refused(outcome_of("[fit]\n[[fit.parameter]]\nname = \"m\"\nkey = \"body.head.mass\"\n"
                            "unit = \"kg\"\nfrom = 5\nto = 6\nstart = 7\n" +
                            rotation),
-                "the bounds exclude it");
+                "expected a value between the bounds from and to");
   check_refused(outcome_of("[fit]\n" + kMass +
                            "[[fit.target]]\noutput = \"pendulum.flexion.head_rotation\"\n"
                            "low = \"20 deg\"\nhigh = \"10 deg\"\n"),
-                "the window crosses itself");
+                "expected a value above low");
   check_refused(outcome_of("[fit]\n" + kMass + target("pendulum.flexion.head_rotation", "17 Hz")),
                 "rad");
   check_refused(
@@ -223,13 +225,13 @@ TEST_CASE("what is wrong with a fit is told in one line") {
       "parameters whose names are single words: head");
   check_refused(outcome_of("[fit]\n" + kMass +
                            "[[fit.target]]\nexpression = \"head\"\noutput = \"modes.mass\"\n"),
-                "expected one of output, curve and expression");
+                "expected exactly one of output, curve and expression");
   check_refused(outcome_of("[fit]\n" + kMass + rotation +
                            "[[fit.target]]\nexpression = \"head\"\nvalue = \"5\"\n"),
-                "expected one beside an expression");
+                "expected a name for an expression");
   check_refused(
       outcome_of("[fit]\n" + kMass + target("pendulum.flexion.head_rotation", "17 deg", "")),
-      "expected one of standard_deviation and relative_deviation");
+      "expected exactly one of standard_deviation and relative_deviation");
 }
 
 TEST_CASE("a disk that fills up ends a fit with one line, and then it goes on") {

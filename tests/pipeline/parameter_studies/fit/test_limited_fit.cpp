@@ -66,7 +66,7 @@ TEST_CASE("a window that holds anyway changes nothing, and adds nothing to chi-s
 TEST_CASE("windows that cannot hold together are told by a target") {
   const FitObjective objective = nearest({3, 1}, {.low = 5}, {.high = 1});
   const Minimum found = least_squares(objective, objective.place(Vector2d(1, 1)), {});
-  CHECK_THAT(found.problem, Contains("no place was found where"));
+  CHECK_THAT(found.problem, Contains("no point was found at which"));
 }
 
 TEST_CASE("the confidence of a parameter ends where no place is left that keeps to a window") {

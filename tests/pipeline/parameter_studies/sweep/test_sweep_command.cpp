@@ -36,7 +36,7 @@ TEST_CASE("shards that are not all there are completed without --shard") {
   require_done(sweep(study, folder / "some", "--shard 2/4"));
   CHECK_FALSE(fs::exists(folder / "some/sweep.csv"));
   const testing::CommandOutcome outcome = run_flexneck(sweep(study, folder / "some"));
-  CHECK_THAT(outcome.text, Contains("45 rows to compute, 15 there already"));
+  CHECK_THAT(outcome.text, Contains("45 rows to compute, 15 already computed"));
   CHECK(table_in(folder / "some") == table_in(folder / "one"));
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("a row that is damaged is computed again with those after it") {
   text[place] = text[place] == '7' ? '8' : '7';
   std::ofstream(rows, std::ios::binary) << text;
   const testing::CommandOutcome outcome = run_flexneck(sweep(study, folder / "out"));
-  CHECK_THAT(outcome.text, Contains("20 rows to compute, 40 there already"));
+  CHECK_THAT(outcome.text, Contains("20 rows to compute, 40 already computed"));
   CHECK(table_in(folder / "out") == table);
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("other values begin a sweep anew, and say so") {
   const testing::CommandOutcome outcome =
       run_flexneck(sweep(study, folder / "out", "--set case.flexion.duration='0.2 s'"));
   CHECK(outcome.exit_code == 0);
-  CHECK_THAT(outcome.text, Contains("begun anew") && Contains("60 rows to compute, 0 there"));
+  CHECK_THAT(outcome.text, Contains("started again") && Contains("60 rows to compute, 0 there"));
 }
 
 TEST_CASE("Ctrl-C keeps what is done") {
@@ -107,7 +107,7 @@ TEST_CASE("Ctrl-C keeps what is done") {
     if (lines > 2) break;
   }
   INFO(outcome.text);
-  CHECK_THAT(outcome.text, Contains("of 100000 rows are done and kept"));
+  CHECK_THAT(outcome.text, Contains("of 100000 rows are complete and kept"));
   CHECK(lines > 2);
   CHECK_THAT(outcome.text, Contains(std::to_string(lines - 1) + " of 100000"));
 }
@@ -121,7 +121,7 @@ TEST_CASE("a disk that fills up ends a sweep with one line, and then it goes on"
       run_shell("sh -c 'ulimit -f 4; exec " + testing::flexneck_program() + " -q " +
                 sweep(study, folder / "full") + "'");
   check_refused(outcome, "cannot be written", 3);
-  CHECK_THAT(outcome.text, Contains("the rows before are kept"));
+  CHECK_THAT(outcome.text, Contains("completed rows are kept"));
   require_done(sweep(study, folder / "full"));
   CHECK(table_in(folder / "full") == table_in(folder / "whole"));
 }
@@ -210,8 +210,8 @@ TEST_CASE("a table never holds rows of two states of a file that a script includ
   require_done(sweep(study, out, "--shard 1/2"));
   std::ofstream(folder / "width.geo") << "W = 0.005;";
   const testing::CommandOutcome second = run_flexneck(sweep(study, out, "--shard 2/2"));
-  CHECK_THAT(second.text, Contains("rows were made from another") && Contains("width.geo") &&
-                              Contains("run that part again"));
+  CHECK_THAT(second.text, Contains("the rows were computed from a different version of") &&
+                              Contains("width.geo") && Contains("run that part again"));
   CHECK_FALSE(fs::exists(out / "sweep.csv"));
   require_done(sweep(study, out, "--shard 1/2"));
   // Four times the density: half the frequency, which both rows of one state have.
@@ -219,7 +219,7 @@ TEST_CASE("a table never holds rows of two states of a file that a script includ
   const double thin_Hz = frequency_Hz(out, 0);
   std::ofstream(folder / "width.geo") << "W = 0.010;";
   const testing::CommandOutcome whole = run_flexneck(sweep(study, out));
-  CHECK_THAT(whole.text, Contains("2 rows to compute, 0 there already"));
+  CHECK_THAT(whole.text, Contains("2 rows to compute, 0 already computed"));
   CHECK(frequency_Hz(out, 0) > 1.9 * thin_Hz);
 }
 
@@ -232,13 +232,12 @@ TEST_CASE("a part beside those of another study, and of a script that runs comma
     CHECK_FALSE(fs::exists(out / "sweep.csv"));
     return second.text;
   };
-  CHECK_THAT(
-      second_after(folder / "two", "--set modes.count=4"),
-      Contains("1-of-2/rows.txt: rows are of another study, other values or another program; "
-               "run that part again"));
+  CHECK_THAT(second_after(folder / "two", "--set modes.count=4"),
+             Contains("1-of-2/rows.txt: the rows belong to another study, other values or another "
+                      "program version; run that part again"));
   std::ofstream(folder / "bar.geo", std::ios::app) << "SystemCall \"true\";\n";
   CHECK_THAT(second_after(folder / "unknown", ""),
-             Contains("counts for one process alone, so take no --shard"));
+             Contains("its rows are valid for one process only; run without --shard"));
   require_done(sweep(study, folder / "unknown"));
   CHECK(frequency_Hz(folder / "unknown", 0) ==
         Approx(2 * frequency_Hz(folder / "unknown", 1)).epsilon(1e-9));

@@ -59,7 +59,7 @@ TEST_CASE("what is wrong with a sweep is told in one line") {
                 "expected a number with its unit");
   check_refused(outcome_of(small_sweep(damping + "[[sweep.parameter]]\n" + damping)), "twice");
   check_refused(outcome_of(small_sweep("key = \"body.neck.damping_ratio\"\n")), "expected values");
-  check_refused(outcome_of(small_sweep(damping, "")), "expected at least one figure");
+  check_refused(outcome_of(small_sweep(damping, "")), "expected at least one output or curve");
   check_refused(outcome_of(small_sweep(damping + "mean = 3\n")), "sweep.parameter");
   check_refused(
       outcome_of(small_sweep(damping, "\"pendulum.flexion.head_rotation\"", "plan = \"sobol\"")),
@@ -76,8 +76,9 @@ TEST_CASE("a sweep of which all rows fail ends with the reason") {
       outcome_of(small_sweep("key = \"interface.top.set\"\ntexts = [\"There\", \"Nowhere\"]\n"));
   INFO(outcome.text);
   CHECK(outcome.exit_code == 3);
-  CHECK_THAT(outcome.text,
-             Contains("output 'pendulum.flexion.head_rotation': no row of the sweep has it"));
+  CHECK_THAT(
+      outcome.text,
+      Contains("output 'pendulum.flexion.head_rotation': not computed in any row of the sweep"));
 }
 
 TEST_CASE("options of a sweep are obeyed or refused") {
