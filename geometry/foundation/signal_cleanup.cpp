@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <map>
+#include <memory>
 #include <new>
 #include <sys/wait.h>
 #include <system_error>
@@ -40,8 +41,8 @@ struct Registry {
 
 /// The registry is never destroyed: the waiting thread may use it while the process exits.
 Registry& registry() {
-  static auto* const only = new Registry;
-  return *only;
+  static Registry& only = *std::make_unique<Registry>().release();
+  return only;
 }
 
 void carry_out(const Entry& entry) noexcept {
