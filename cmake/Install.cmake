@@ -17,13 +17,17 @@ set(made "${PROJECT_BINARY_DIR}/generated/reference")
 install(FILES "${made}/flexneck.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT runtime)
 install(FILES "${made}/flexneck"
         DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" COMPONENT runtime)
+# Texts link to one another and to pictures: they lie as in the sources.
 install(FILES README.md LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT runtime)
+install(DIRECTORY pipeline/manual DESTINATION "${CMAKE_INSTALL_DOCDIR}/pipeline" COMPONENT runtime
+        FILES_MATCHING PATTERN "*.md" PATTERN "*.cff" PATTERN "manual/README.md" EXCLUDE)
+install(DIRECTORY pipeline/data/pictures DESTINATION "${CMAKE_INSTALL_DOCDIR}/pipeline/data" COMPONENT runtime)
 
 # Shipped files, laid out as in the sources: files name one another by these paths.
 foreach(folder geometry geometry/examples pipeline/data/models pipeline/data/regulations pipeline/data/studies
                pipeline/data/studies/fits pipeline/data/verification)
   file(GLOB files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*")
-  list(FILTER files INCLUDE REGEX "\\.(toml|geo|csv|inp|msh|md)$")
+  list(FILTER files INCLUDE REGEX "\\.(toml|geo|csv|inp|msh)$")
   install(FILES ${files} DESTINATION "${flexneck_data}/${folder}" COMPONENT runtime)
 endforeach()
 install(FILES pipeline/exchange/fmu/muparser.txt DESTINATION "${flexneck_data}/pipeline/exchange/fmu" COMPONENT runtime)
@@ -55,6 +59,7 @@ install(DIRECTORY geometry mesher fe_modal multibody pipeline DESTINATION "${fle
         COMPONENT development FILES_MATCHING PATTERN "*.h"
         PATTERN "pipeline/data/models" EXCLUDE PATTERN "pipeline/data/studies" EXCLUDE
         PATTERN "pipeline/data/regulations" EXCLUDE PATTERN "pipeline/data/pictures" EXCLUDE PATTERN "pipeline/python" EXCLUDE
+        PATTERN "pipeline/manual" EXCLUDE
         PATTERN "pipeline/data/verification/*.toml" EXCLUDE PATTERN "geometry/examples" EXCLUDE
         PATTERN "page" EXCLUDE)
 install(FILES "${PROJECT_BINARY_DIR}/generated/pipeline/version.h"

@@ -1,14 +1,15 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs the packages of cmake/packages.txt that are missing.
-# Usage: sh cmake/setup.sh build|test     (test includes build)
+# Usage: sh cmake/setup.sh build|test|manual     (the others include build)
 set -eu
 
 list="$(dirname "$0")/packages.txt"
 case "${1:-build}" in
   build) sections='build' ;;
   test) sections='build test' ;;
-  *) echo "setup.sh: expected 'build' or 'test', found '$1'" >&2; exit 2 ;;
+  manual) sections='build manual' ;;
+  *) echo "setup.sh: expected 'build', 'test' or 'manual', found '$1'" >&2; exit 2 ;;
 esac
 
 release=$(. /etc/os-release && echo "${VERSION_CODENAME:-}") 2>/dev/null || release=''

@@ -8,7 +8,7 @@
 
 namespace flexneck::fe_modal {
 
-/// Writes the group /geometric_stiffness of a modal body file (README.md).
+/// Writes the group /geometric_stiffness of a modal body file (modes_file.md).
 void write_geometric_stiffness(Hdf5Writer& file, const GeometricStiffness& stiffness);
 /// Reads the group; nothing if the file has no such group.
 /// @param m number of modes

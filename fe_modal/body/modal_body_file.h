@@ -9,7 +9,7 @@
 
 namespace flexneck::fe_modal {
 
-/// File format; its layout is described in fe_modal/body/README.md.
+/// File format; its layout is described in pipeline/manual/reference/modes_file.md.
 inline constexpr FileFormat kModalBodyFormat{"flexneck modal body", 2, "flexneck modes"};
 
 struct ModalBodyFile {

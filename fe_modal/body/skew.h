@@ -5,7 +5,7 @@
 
 namespace flexneck {
 
-/// Skew matrix: skew(v) w = v x w. Written ~v in multibody/equations.md.
+/// Skew matrix: skew(v) w = v x w. Written ~v in equations.md.
 inline Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
   Eigen::Matrix3d matrix;
   matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;

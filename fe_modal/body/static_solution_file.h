@@ -9,7 +9,7 @@
 
 namespace flexneck::fe_modal {
 
-/// File format; its layout is described in fe_modal/body/README.md.
+/// File format; its layout is described in pipeline/manual/reference/stress_file.md.
 inline constexpr FileFormat kStaticSolutionFormat{"flexneck static solution", 1, "flexneck stress"};
 
 struct StaticSolutionFile {

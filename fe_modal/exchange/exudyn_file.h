@@ -11,7 +11,7 @@ namespace flexneck::fe_modal {
 /// inertia invariants, SI units. Its nodes have translations only, so that each interface is
 /// represented, at the end of the list in the body's order, by four nodes without mass that move
 /// rigidly with it to the first order: a marker on all four with equal weights is the interface.
-/// README.md describes the losses.
+/// guides/exchange.md describes the losses.
 /// @throws InputError if the file cannot be written.
 void write_exudyn(const std::filesystem::path& path, const ModalBody& body);
 

@@ -9,8 +9,8 @@ namespace flexneck::fe_modal {
 
 /// Writes a body for the modal joint of MBDyn: its interfaces as nodes 1, 2, … with translations
 /// and rotations, mass and stiffness of the modes, and the exact inertia invariants (groups 12 and
-/// 14 to 18). Names of interfaces and modes stand in comments. SI units. README.md describes the
-/// losses.
+/// 14 to 18). Names of interfaces and modes stand in comments. SI units. guides/exchange.md
+/// describes the losses.
 /// @throws InputError if the file cannot be written.
 void write_mbdyn_fem(const std::filesystem::path& path, const ModalBody& body);
 

@@ -10,7 +10,7 @@ namespace flexneck::fe_modal {
 /// Writes a body as Wallrapp's standard input data (SID_FEM), which Modelica's and other programs
 /// read: its interfaces as nodes 1, 2, …, with their names in the first line. Taylor series in the
 /// modal coordinates q: mdCM, J, Ct, Cr, Gr, Ge and Oe to the first order; no geometric stiffness,
-/// no damping. SI units. README.md describes the losses.
+/// no damping. SI units. guides/exchange.md describes the losses.
 ///
 /// | block | coefficient | value |
 /// |---|---|---|

@@ -6,7 +6,7 @@
 
 namespace flexneck::mesher {
 
-/// Writes the group /connections of a mesh file (README.md); nothing if there are none.
+/// Writes the group /connections of a mesh file (mesh_file.md); nothing if there are none.
 void write_connections(Hdf5Writer& file, const Connections& connections);
 /// Reads the group /connections.
 /// @throws InputError as Hdf5Reader, and for lists whose lengths do not fit together.

@@ -11,7 +11,7 @@
 
 namespace flexneck::mesher {
 
-/// Format of a mesh file; the layout is described in mesher/mesh/README.md.
+/// Format of a mesh file; the layout is described in pipeline/manual/reference/mesh_file.md.
 inline constexpr FileFormat kMeshFormat{"flexneck mesh", 4, "flexneck mesh"};
 
 struct MeshFile {

@@ -5,8 +5,8 @@
 
 namespace flexneck::multibody {
 
-/// Form of the equations of motion that a run solves. The forms agree to rounding; see README.md
-/// for the choice.
+/// Form of the equations of motion that a run solves. The forms agree to rounding; see
+/// integrators.md for the choice.
 enum class Formulation {
   descriptor,  ///< all bodies' coordinates, joints as constraints with multipliers: any model
   recursive,   ///< joint coordinates: trees of bodies, work proportional to their number

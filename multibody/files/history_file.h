@@ -16,7 +16,7 @@
 
 namespace flexneck::multibody {
 
-/// Format of a history file; the layout is described in multibody/README.md.
+/// Format of a history file; the layout is described in pipeline/manual/reference/history_file.md.
 inline constexpr FileFormat kHistoryFormat{"flexneck history", 2, "flexneck pendulum"};
 
 /// Curves derived from a history, at its times.

@@ -86,7 +86,7 @@ bool sweep_command(const CommandInput& input);
 /// targets determine them; writes fit.json and fitted.toml.
 bool fit_command(const CommandInput& input);
 
-/// Runs a model file (pipeline/data/models/README.md): writes <its name>.h5 and <its name>.csv in
+/// Runs a model file (manual/reference/model_files.md): writes <its name>.h5 and <its name>.csv in
 /// the folder, and a summary on the console.
 /// @throws InputError for an error in the model; nothing is written then.
 /// @throws ComputationError if the run ends early; the results so far are written, marked

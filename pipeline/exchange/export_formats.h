@@ -71,7 +71,7 @@ void export_exudyn_body(const FileInput& input);
 /// warning names what is not carried over.
 void import_body(const FileInput& input);
 
-/// Writes the model of a file as an FMU 3.0 for co-simulation (exchange/fmu/README.md).
+/// Writes the model of a file as an FMU 3.0 for co-simulation (manual/guides/exchange.md).
 void export_fmu(const FileInput& input);
 
 /// Writes the channels of a run, the only one of input.files, as a test in ISO-MME

@@ -8,7 +8,7 @@
 
 namespace flexneck::pipeline {
 
-/// Writes a model as an FMU 3.0 for co-simulation (exchange/fmu/README.md).
+/// Writes a model as an FMU 3.0 for co-simulation (manual/guides/exchange.md).
 /// @param console  takes a warning for each channel whose filter is left out
 /// @throws InputError naming a load that is a function of a program, or two variables of one name.
 void write_fmu(const ModelFile& file, const std::filesystem::path& target, const Console& console);

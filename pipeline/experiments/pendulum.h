@@ -23,8 +23,8 @@ FittedPulse case_pulse(const Study& study, const CaseSection& experiment);
 /// case's direction (flexion: neck +x, extension: -x, lateral: +y, oblique: between) with the
 /// impact velocity and is brought to rest by its pulse. A translating arm moves as a whole; a
 /// rotating one swings about its pivot above the neck, with velocity and pulse at its
-/// accelerometer. Conventions: multibody/CONVENTIONS.md. Its markers are "arm.end", "head.condyles"
-/// and "head.cg", and those of the joints.
+/// accelerometer. Conventions: manual/theory/conventions.md. Its markers are "arm.end",
+/// "head.condyles" and "head.cg", and those of the joints.
 multibody::Model pendulum_model(const Study& study, const CaseSection& experiment,
                                 const fe_modal::ModalBody& body);
 

@@ -19,7 +19,7 @@ namespace {
 
 /// Total load of a joint's lower body on the upper one, in the axes of marker i: the reaction,
 /// which a history holds, and the loads of springs, dampers and stops on a revolute joint's angle,
-/// which it does not (multibody/CONVENTIONS.md, signs).
+/// which it does not (manual/theory/conventions.md, signs).
 struct JointLoad {
   Eigen::Matrix3Xd force_N;
   Eigen::Matrix3Xd moment_Nm;  ///< about marker j's origin

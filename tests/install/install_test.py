@@ -17,6 +17,9 @@ import unittest
 from pathlib import Path
 
 BUILD, SOURCES, CXX = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
+sys.path.insert(0, str(SOURCES / "tests/pipeline/manual"))
+import links  # noqa: E402
+
 CONSUMER = Path(__file__).resolve().parent / "consumer"
 ENVIRONMENT = {**os.environ, "OMP_NUM_THREADS": "1", "LC_ALL": "C.UTF-8"}
 
@@ -66,6 +69,11 @@ class Installed(unittest.TestCase):
         self.assertIn("70 GPa", text)
         study = (self.folder / "bar/study.json").read_text()
         self.assertNotIn(str(self.prefix), study)
+
+    def test_texts_link_to_what_is_installed(self):
+        texts = sorted(self.prefix.rglob("*.md"))
+        self.assertGreater(len(texts), 30)
+        self.assertEqual(list(links.dead_links(texts)), [])
 
     def test_only_the_mesher_loads_gmsh(self):
         for name, loads in (("bin/flexneck", False), ("lib/flexneck/flexneck-mesher", True)):

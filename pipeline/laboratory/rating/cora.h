@@ -51,7 +51,7 @@ struct CoraRating {
 
 /// Rates a curve against a reference by the method of CORA (Gehre, Gades, Wernicke: Objective
 /// rating of signals using test and simulation responses, ESV 2009, 09-0407). Interpretations made
-/// here: pipeline/laboratory/rating/README.md.
+/// here: pipeline/manual/reference/ratings.md.
 /// @param reference, computed  shape (n), at the same equidistant times of the interval of
 /// evaluation, in the same unit
 /// @throws InputError as check_rated() does, and for invalid parameters: widths that do not

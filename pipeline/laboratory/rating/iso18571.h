@@ -26,7 +26,7 @@ struct Iso18571Rating {
 };
 
 /// Rates a curve against a reference by ISO/TS 18571:2024. Choices that its definition leaves open,
-/// and their effect on the rating: pipeline/laboratory/rating/README.md.
+/// and their effect on the rating: pipeline/manual/reference/ratings.md.
 /// @param reference, computed  shape (n), sampled at 10 kHz at the same times, in the same unit
 /// @throws InputError as check_rated() does.
 Iso18571Rating rate_iso18571(const Eigen::VectorXd& reference, const Eigen::VectorXd& computed);

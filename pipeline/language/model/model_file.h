@@ -62,7 +62,7 @@ struct ModelFile {
 /// The table of keys of model files, by section.
 std::span<const Key> model_keys();
 
-/// Reads a model file (pipeline/data/models/README.md) and the files that it names: modes and
+/// Reads a model file (manual/reference/model_files.md) and the files that it names: modes and
 /// tables.
 /// @param settings  "dotted.key=value", as for read_study()
 /// @throws InputError with file, line, column and key for any error in the file.

@@ -9,7 +9,7 @@
 namespace flexneck::pipeline {
 
 /// Name of a figure or a curve of a study: "modes.<figure>", "pendulum.<case>.<figure>",
-/// "static.<case>.<figure>", "verdict.<test>.<figure>". README.md lists the figures.
+/// "static.<case>.<figure>", "verdict.<test>.<figure>". parameter_studies.md lists the figures.
 struct OutputName {
   enum class Of { modes, pendulum, static_test, verdict };
   std::string text;  ///< name as given

@@ -75,7 +75,7 @@ class ModalBody:
         names: of the modes. frequencies: (m,), Hz, ascending. nodes: (k, 3), m. shapes: (m, k, 3),
         kg^(-1/2). interfaces: by name. invariants: all entries of the property `invariants`. kinds:
         of the modes; default: all normal. Raises InputError if the arrays are inconsistent
-        (fe_modal/body/README.md).
+        (the manual's page on reduction).
         """
         arrays = {"frequencies": frequencies, "nodes": nodes, "shapes": shapes}
         _core.build_body(str(path), list(names), list(kinds or ["normal"] * len(names)),

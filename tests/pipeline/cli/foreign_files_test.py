@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""mesh.h5 and modes.h5 that h5py writes from their documentation alone (mesher/mesh/README.md,
-fe_modal/body/README.md, geometry/foundation/README.md) do what files of the program's own do.
+"""mesh.h5 and modes.h5 that h5py writes from their documentation alone (pipeline/manual/reference/:
+mesh_file.md, modes_file.md, files.md) do what files of the program's own do.
 
 Usage: foreign_files_test.py FLEXNECK      (77: skipped, for want of h5py)
 """

@@ -10,7 +10,7 @@ import numpy
 
 class Body:
     """mass, S1 (3), J0 (3, 3), S2 (3, m), G0 (m, 3, 3), G (m, m, 3, 3), N0 (3, m), N (m, m, 3), M (m, m), K (m, m)
-    and nodes {name: (position, translation (3, m), rotation (3, m))}: multibody/equations.md section 2."""
+    and nodes {name: (position, translation (3, m), rotation (3, m))}: equations.md section 2."""
 
 
 def skew(v):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A deformable body that swings about an axis through a point that no mode moves: an integrator of its own, from the
-terms of foreign_bodies.Body alone. Symbols as in multibody/equations.md, sections 2 and 3."""
+terms of foreign_bodies.Body alone. Symbols as in equations.md, sections 2 and 3."""
 
 import numpy
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs the fuzz targets on every reader for a time or a number of executions: ../README.md."""
+"""Runs the fuzz targets on every reader for a time or a number of executions: README.md."""
 
 import argparse
 import concurrent.futures
