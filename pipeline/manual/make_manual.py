@@ -37,9 +37,8 @@ LIBRARIES = {
         "fe_modal/analysis/static_analysis.h", "fe_modal/analysis/sensitivity.h", "fe_modal/body/modal_body.h",
         "fe_modal/body/modal_body_file.h", "fe_modal/body/static_solution.h"]),
     "multibody": ("bodies in motion", [
-        "multibody/model/model.h", "multibody/joints/joint_kinds.h", "multibody/forces/force_lists.h",
-        "multibody/forces/force_kinds.h", "multibody/equations/solver_options.h", "multibody/history/output_options.h",
-        "multibody/simulation/simulation.h", "multibody/simulation/stepped_run.h", "multibody/simulation/batch.h",
+        "multibody/model/model.h", "multibody/joints/joint_kinds.h", "multibody/forces/force_kinds.h", "multibody/equations/solver_options.h", "multibody/history/output_options.h",
+        "multibody/simulation/simulation.h", "multibody/simulation/stepped_run.h",
         "multibody/history/history.h", "multibody/analysis/linearisation.h", "multibody/analysis/steady_rotation.h",
         "multibody/analysis/campbell.h", "multibody/files/history_file.h", "multibody/signals/cfc_filter.h",
         "multibody/signals/load_cell.h"]),
