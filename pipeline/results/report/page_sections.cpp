@@ -51,6 +51,30 @@ std::string item(const std::string& section, const std::string& name, const std:
          (badge.empty() ? "" : " ") + html_text(sentence) + "</li>\n";
 }
 
+/// Text such as "All 6 figures that are judged agree. …".
+std::string verification_summary(const VerificationTable& table) {
+  const auto count = [&](Status status) {
+    return std::count_if(table.rows.begin(), table.rows.end(),
+                         [&](const VerificationRow& row) { return row.status == status; });
+  };
+  const auto passed = count(Status::passed);
+  const auto failed = count(Status::failed);
+  const bool is_fitted = std::any_of(table.rows.begin(), table.rows.end(),
+                                     [](const VerificationRow& row) { return row.fitted; });
+  if (passed + failed == 0)
+    return "No figure has a verdict, since dimensions or materials are those of the user "
+           "(synthetic).";
+  std::string text = failed == 0 ? fmt::format("All {} figures with a verdict agree.", passed)
+                                 : fmt::format("{} of the {} figures with a verdict do not agree.",
+                                               failed, passed + failed);
+  if (is_fitted) {
+    text +=
+        " The dimensions were fitted to the figures marked as fitted: agreement there shows the "
+        "quality of the fit, not the predictive ability of the model.";
+  }
+  return text;
+}
+
 std::string verification_item(const VerificationTable& table) {
   const auto has = [&](Status status) {
     return std::any_of(table.rows.begin(), table.rows.end(),
@@ -87,30 +111,6 @@ std::string certification_items(const Results& results) {
     }
   }
   return html;
-}
-
-/// Text such as "All 6 figures that are judged agree. …".
-std::string verification_summary(const VerificationTable& table) {
-  const auto count = [&](Status status) {
-    return std::count_if(table.rows.begin(), table.rows.end(),
-                         [&](const VerificationRow& row) { return row.status == status; });
-  };
-  const auto passed = count(Status::passed);
-  const auto failed = count(Status::failed);
-  const bool is_fitted = std::any_of(table.rows.begin(), table.rows.end(),
-                                     [](const VerificationRow& row) { return row.fitted; });
-  if (passed + failed == 0)
-    return "No figure has a verdict, since dimensions or materials are those of the user "
-           "(synthetic).";
-  std::string text = failed == 0 ? fmt::format("All {} figures with a verdict agree.", passed)
-                                 : fmt::format("{} of the {} figures with a verdict do not agree.",
-                                               failed, passed + failed);
-  if (is_fitted) {
-    text +=
-        " The dimensions were fitted to the figures marked as fitted: agreement there shows the "
-        "quality of the fit, not the predictive ability of the model.";
-  }
-  return text;
 }
 
 /// HTML of the page's first screen beside the moving neck: the computations, and each verdict.
