@@ -37,7 +37,7 @@ ModalOptions without_prestress(ModalOptions options) {
 
 [[noreturn]] void refuse_buckled(double factor) {
   throw InputError("the body buckles under its prestress at " + rounded_text(factor, 4) +
-                   "times the loads; reduce the loads");
+                   " times the loads; reduce the loads");
 }
 
 }  // namespace

@@ -251,7 +251,7 @@ template <class Known>
 void ModelReader::check_members(const InpSets& sets, const std::string& kind,
                                 const std::string& member, const Known& known) {
   const auto is_unknown = [&](std::int64_t number) { return known.count(number) == 0; };
-  const std::string keyword = ", which *" + upper_case(member) + " does not give";
+  const std::string keyword = ", which *" + upper_case(member) + " does not define";
   for (const auto& [key, set] : sets) {
     const auto wrong = std::find_if(set.written.begin(), set.written.end(), is_unknown);
     if (wrong != set.written.end()) {

@@ -93,10 +93,9 @@ std::vector<std::string> DeformationGuard::warnings() const {
   std::vector<std::string> texts;
   for (const std::optional<Watched>& each : bodies_)
     if (each && each->largest.of_limit > 1)
-      texts.push_back("body '" + each->name +
-                      "' exceeds the small deformations that its modes assume at " +
+      texts.push_back("body '" + each->name + "' leaves the small deformations of its modes at " +
                       rounded_text(each->since_s, 3) + " s and at worst " + text_of(each->largest) +
-                      "; errors of the results exceed 10 %; divide it into several bodies");
+                      "; errors exceed 10 %; divide it into several bodies");
   return texts;
 }
 

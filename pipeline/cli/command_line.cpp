@@ -7,10 +7,12 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include "geometry/foundation/error.h"
 #include "geometry/foundation/names.h"
 #include "pipeline/cli/command_reference.h"
+#include "pipeline/process/wrapped_text.h"
 #include "pipeline/version.h"
 
 namespace flexneck::pipeline {
@@ -229,6 +231,18 @@ std::string near_option(const Command& command, const std::vector<std::string>& 
                    command.name + " --help' lists its options");
 }
 
+/// Help of a command, whose options' texts are wrapped beside the column of their names.
+std::string help_of(CLI::App& app) {
+  constexpr std::size_t kNameColumns = 30;
+  for (CLI::Option* const option : app.get_options())
+    option->description(fmt::format(
+        "{}",
+        fmt::join(wrapped_lines(option->get_description(), kConsoleColumns - kNameColumns), "\n")));
+  std::string text = app.help();
+  text.erase(text.find_last_not_of('\n') + 1);
+  return text;
+}
+
 void parse_options(const std::vector<std::string>& words, CommandLine& line) {
   const Command& command = *line.command;
   CLI::App app(command.help, "flexneck " + command.name);
@@ -236,8 +250,7 @@ void parse_options(const std::vector<std::string>& words, CommandLine& line) {
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::CallForHelp&) {
-    line.answer = app.help();
-    line.answer.erase(line.answer.find_last_not_of('\n') + 1);
+    line.answer = help_of(app);
   } catch (const CLI::ParseError& error) {
     refuse(app, command, words, error.what());
   }
@@ -258,7 +271,8 @@ std::size_t place_of_command(const std::vector<std::string>& words) {
     for (const Command& command : commands())
       if (command.name == word) name = word;
   throw InputError("the command must precede its options and files: 'flexneck " + name +
-                   "' followed by its options; 'flexneck --help' lists the commands");
+                   "' followed by its options; found '" + words.front() +
+                   "' first; 'flexneck --help' lists the commands");
 }
 
 }  // namespace

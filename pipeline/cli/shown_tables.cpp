@@ -8,6 +8,8 @@
 
 #include <fmt/core.h>
 
+#include "pipeline/process/wrapped_text.h"
+
 namespace flexneck::pipeline {
 
 namespace {
@@ -111,7 +113,9 @@ void show_verification(const CommandInput& input, const VerificationTable& table
   if (std::any_of(table.rows.begin(), table.rows.end(), [](const VerificationRow& row) {
         return row.status == VerificationRow::Status::unjudged;
       }))
-    input.console.result("  no figure has a verdict: " + why_unjudged(input.study, table));
+    std::string why = wrapped("no figure has a verdict: " + why_unjudged(input.study, table), "  ");
+  why.pop_back();  // result() ends the line
+  input.console.result(why);
   if (others > 0 && !input.console.is_verbose())
     input.console.result(fmt::format("  and {} figures without a verdict (--verbose)", others));
   if (!table.passed()) input.console.error("a verification failed; see the table above");

@@ -81,7 +81,7 @@ TEST_CASE("what is wrong with a matrix is said with file and line") {
                 ":3: expected only entries of the lower");
   check_refused(".mtx", head + "symmetric\n2 2 1\n3 1 1\n", ":3: expected a whole number");
   check_refused(".mtx", head + "symmetric\n2 2 1\n1 1 x\n", ":3: expected a number");
-  check_refused(".mtx", head + "symmetric\n2 2 1\n1 1 nan\n", "not finite");
+  check_refused(".mtx", head + "symmetric\n2 2 1\n1 1 nan\n", "expected finite entries");
   check_refused(".mtx", head + "general\n2 2 1\n1 2 1\n", "expected a symmetric matrix");
   check_refused(".mtx", head + "general\n2 3 1\n1 2 1\n", "square");
   check_refused(".petsc", "something else", "PETSc");

@@ -213,7 +213,7 @@ TEST_CASE("slits that open and close are refused where they cannot be") {
   refused(slit_block(false), options, "without modes");
   options.basis = BasisKind::residual;
   options.check = true;
-  refused(slit_block(false), options, "completeness");
+  refused(slit_block(false), options, "modes.check");
   options = options_with(SlitMotions::openings);
   options.interfaces.front().is_rigid = true;
   refused(slit_block(false), options, "not supported with rigid interfaces");

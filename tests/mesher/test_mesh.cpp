@@ -53,7 +53,8 @@ TEST_CASE("loose nodes and nodes without position are refused") {
 }
 
 TEST_CASE("empty parts and sets are refused") {
-  CHECK_THAT(refusal([](Mesh& mesh) { mesh.blocks.clear(); }), Contains("no elements"));
+  CHECK_THAT(refusal([](Mesh& mesh) { mesh.blocks.clear(); }),
+             Contains("expected elements, found none"));
   CHECK_THAT(refusal([](Mesh& mesh) { mesh.blocks[0].nodes.clear(); }),
              Contains("part 'upper' is empty"));
   CHECK_THAT(refusal([](Mesh& mesh) { mesh.node_sets[0].nodes.clear(); }),

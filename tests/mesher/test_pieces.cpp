@@ -106,7 +106,7 @@ TEST_CASE("cuts that cannot be made are refused") {
       [&] {
         pieces_by_planes(whole, up, std::vector<double>{0.75, 0.25});
       },
-      "do not increase");
+      "ascending order");
   require_refusal(
       [&] {
         pieces_by_planes(whole, up, std::vector<double>{-1.0, 0.25});

@@ -243,7 +243,7 @@ TEST_CASE("the balance of energy is told where it departs, and ends a run that s
   };
   CHECK(guard_after(0.099, 100).warnings().empty());
   REQUIRE(guard_after(-0.11, 100).warnings().size() == 1);
-  CHECK_THAT(guard_after(-0.11, 100).warnings()[0], Contains("at 1 s") && Contains("0.11 %"));
+  CHECK_THAT(guard_after(-0.11, 100).warnings()[0], Contains("from 1 s on") && Contains("0.11 %"));
   CHECK_NOTHROW(guard_after(-9.9, 100));
   CHECK_NOTHROW(guard_after(-10.1, 19));
   CHECK_THROWS_WITH(guard_after(-10.1, 20), Contains("10.1 J") && Contains("are lost at 20 s"));

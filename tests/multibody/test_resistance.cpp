@@ -40,7 +40,7 @@ TEST_CASE("a curve that locks follows its law to nine tenths, then goes on strai
   CHECK(curve.piece(0.44).number != curve.piece(0.46).number);
   CHECK(curve.continues(LoadCurve::locking(10, 0.5)));
   CHECK_FALSE(curve.continues(LoadCurve::locking(10, 0.6)));
-  CHECK_THROWS_WITH(LoadCurve::locking(-1, 1), Contains("not negative"));
+  CHECK_THROWS_WITH(LoadCurve::locking(-1, 1), Contains("non-negative stiffness"));
   CHECK_THROWS_WITH(LoadCurve::locking(1, 0), Contains("positive deflection"));
 }
 

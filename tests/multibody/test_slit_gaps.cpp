@@ -137,7 +137,7 @@ TEST_CASE("gaps that do not fit a body are refused") {
   };
   DeformableBody body = slit_body(random, 2);
   body.gaps.coupling.conservativeResize(2, 2);
-  refused(body, "do not fit");
+  refused(body, "do not have the sizes");
   body = slit_body(random, 2);
   body.gaps.coupling *= 2;
   refused(body, "not positive definite");

@@ -278,7 +278,7 @@ TEST_CASE(
     CHECK_THAT(stopped.history.incomplete, Contains("stress_stiffening"));
     REQUIRE(stopped.history.warnings.size() == 1);
     CHECK_THAT(stopped.history.warnings[0],
-               Contains("' exceeds the small deformations that its modes assume at ") &&
+               Contains("' leaves the small deformations of its modes at ") &&
                    Contains(" s and at worst displaces interface") &&
                    Contains("divide it into several bodies"));
     CHECK(stopped.history.warnings[0].size() + std::string("Warning: ").size() <= 200);

@@ -185,7 +185,7 @@ class ForeignFiles(unittest.TestCase):
         write_mesh(self.folder / "foreign/mesh.h5")
         found = self.flexneck("info", "foreign/mesh.h5")
         for text in ("flexneck mesh, not verified", "4 elements, 20 nodes", "10.8 kg",
-                     "another program"):
+                     "an unknown program"):
             self.assertIn(text, found)
         self.assertIn(", verified", self.flexneck("info", "own/mesh.h5"))
         frequencies = []

@@ -137,7 +137,7 @@ TEST_CASE("what a stage leaves is read by the next one, or refused in one line")
     check_refused(run_flexneck("info " + out + "/mesh.xdmf"), "another kind of file");
     check_refused(run_flexneck("info " + out + "/none.h5"), "no such file");
   }
-  SECTION("a stage tells what it replaces by something else, and what it was made with counts") {
+  SECTION("a stage tells what it replaces by another dimension, and what it was made with counts") {
     // A study given by name is used without the values that the folder remembers.
     const std::string study =
         " " + std::string(FLEXNECK_SOURCE_DIR) + "/pipeline/data/studies/hybrid3.toml";

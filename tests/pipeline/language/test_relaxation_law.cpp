@@ -179,5 +179,5 @@ TEST_CASE("laws of relaxation that make no sense, or that branches do not follow
       "increase strictly, which is not the case for value 2");
   // A storage modulus that falls with frequency is not a spectrum of relaxation.
   refused(table + "storage = [\"4 MPa\", \"2 MPa\"], loss = [\"1 MPa\", \"1 MPa\"]",
-          "miss a table of the dynamic modulus");
+          "fitted to a table of the dynamic modulus");
 }

@@ -260,10 +260,10 @@ TEST_CASE("a key that is not known where it stands is told where it belongs") {
              Contains("it belongs in [geometry.materials.<name>]"));
   CHECK_THAT(told(file + "[geometry.mesh]\nsize = \"1 mm\"\n"),
              Contains("geometry.mesh: unknown key; it belongs in the top level"));
-  CHECK_THAT(told(file + "[output]\nmax_step = \"1 ms\"\n"), Contains("into [solver]"));
-  CHECK_THAT(told(file + "[modes]\ndamping_ratio = 0.1\n"), Contains("into [[body]]"));
+  CHECK_THAT(told(file + "[output]\nmax_step = \"1 ms\"\n"), Contains("it belongs in [solver]"));
+  CHECK_THAT(told(file + "[modes]\ndamping_ratio = 0.1\n"), Contains("it belongs in [[body]]"));
   CHECK_THAT(told(file + "[modes]\npulse_scaling = \"none\"\n"),
-             Contains("into [pendulum], [static], [[case]] or [[variant]]"));
+             Contains("it belongs in [pendulum], [static], [[case]] or [[variant]]"));
   CHECK_THAT(told(file + "[modes]\nname = \"a\"\n"), EndsWith("modes.name: unknown key"));
 }
 

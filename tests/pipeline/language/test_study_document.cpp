@@ -146,7 +146,7 @@ TEST_CASE("what a study gets wrong is told with file, line, column, key and reme
   };
   CHECK_THROWS_WITH(table("width = 2").quantity("width"),
                     Contains("study.toml:2:9: part.width: expected a number with its unit"));
-  CHECK_THROWS_WITH(table("width = \"2 s\"").quantity("width"), Contains("something else"));
+  CHECK_THROWS_WITH(table("width = \"2 s\"").quantity("width"), Contains("another dimension"));
   CHECK_THROWS_WITH(table("width = \"2 inn\"").quantity("width"), Contains("unknown unit"));
   CHECK_THROWS_WITH(table("ratio = \"0.4 in\"").number("ratio"), Contains("pure number"));
   CHECK_THROWS_WITH(table("ratio = 1.5").number("ratio"),

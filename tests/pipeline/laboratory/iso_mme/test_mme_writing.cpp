@@ -184,7 +184,7 @@ TEST_CASE("other channels have codes of a laboratory, or the code that is their 
   CHECK(mme_channels(run_of({channel("a", "N")}, 0.3), {}, left_out)[0].values.size() == 4);
   CHECK(left_out.empty());
   const std::vector<std::string> many(1000, "x");
-  CHECK_THROWS_WITH(codes_of(channel("many", "m", "", many), {}), Contains("at most 999 curves"));
+  CHECK_THROWS_WITH(codes_of(channel("many", "m", "", many), {}), Contains("at most 999 channels"));
 }
 
 TEST_CASE("'flexneck export' writes a run, and a rating reads it again") {

@@ -209,7 +209,7 @@ TEST_CASE("'flexneck rate' refuses bad input in one line that says where") {
   folder.refuses("time [s],angle\n" + good.substr(head.size()), "gives no unit of its values");
   folder.refuses("time [s],angle [N]\n" + good.substr(head.size()),
                  "bad.csv: 'angle' [N]: expected a unit such as 'rad', found 'N'");
-  folder.refuses("time [s],angle [rad/s]\n" + good.substr(head.size()), "something else");
+  folder.refuses("time [s],angle [rad/s]\n" + good.substr(head.size()), "another dimension");
   folder.refuses("time [s],angle [blah]\n" + good.substr(head.size()), "unknown unit 'blah'");
   folder.refuses("time [ms],angle [rad]\n" + good.substr(head.size()),
                  "0 to 4.99e-05 s are 1 samp");
@@ -226,7 +226,7 @@ TEST_CASE("'flexneck rate' refuses bad input in one line that says where") {
   check_refused(folder.run("rate reference.csv computed.csv zero.csv"), "found 3");
   check_refused(folder.run("rate reference.csv missing.csv"), "missing.csv");
   check_refused(folder.run("rate reference.csv ."), ".: ");
-  check_refused(folder.run("rate reference.csv computed.csv --set a=1"), "--set belongs to");
+  check_refused(folder.run("rate reference.csv computed.csv --set a=1"), "--set is an option of");
   check_refused(folder.run("info reference.csv --channel a"),
                 "--channel is an option of the command rate");
   check_refused(folder.run("rate reference.csv computed.csv -o ''"), "expected a folder");
@@ -301,7 +301,7 @@ TEST_CASE("'flexneck nij' filters no load a second time that has passed CFC 600 
   check_refused(folder.run(write('C', spike)), "CFC 600 cannot be obtained");
   check_refused(folder.run(write('A', spike) + " --shear 11NECKUP00H3FOXB"),
                 "expected the times of");
-  check_refused(folder.run(write('A', spike) + " --shear 11NECKUP00H3MOYB"), "something else");
+  check_refused(folder.run(write('A', spike) + " --shear 11NECKUP00H3MOYB"), "another dimension");
 }
 
 TEST_CASE("'flexneck nij' gives the four combinations of loads in a file") {
@@ -327,7 +327,7 @@ TEST_CASE("'flexneck nij' gives the four combinations of loads in a file") {
 
   check_refused(folder.run("nij loads.csv --force Fz"), "--moment is required");
   check_refused(folder.run("nij --force Fz --moment My"), "expected one file");
-  check_refused(folder.run("nij loads.csv --force My --moment My"), "something else");
+  check_refused(folder.run("nij loads.csv --force My --moment My"), "another dimension");
   check_refused(folder.run(command + " --dummy 95th"), "dummy");
   check_refused(folder.run(command + " --from 1s"), "--from is an option of the command rate");
   folder.write("loads.csv", table("time [ms],Fz [N],My [N*m]", {constant(1), constant(1)}, 0.2));

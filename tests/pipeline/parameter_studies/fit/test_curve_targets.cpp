@@ -72,7 +72,7 @@ TEST_CASE("a curve is fitted at its points") {
   const CurveFit lab;
   CHECK(lab.damping(kTable + kDegree) == Approx(kDamping).epsilon(1e-4));
   CHECK_THAT(bytes_of(lab.path("out/fit-curve-rotation.svg")), Contains("</svg>"));
-  lab.refuses(kTable + kDegree + "from = \"100 ms\"\nto = \"900 ms\"\n", "covers");
+  lab.refuses(kTable + kDegree + "from = \"100 ms\"\nto = \"900 ms\"\n", "expected a time within");
   lab.refuses(kTable + kDegree + "from = \"100 ms\"\nto = \"50 ms\"\n",
               "expected a time after from");
   lab.refuses(kTable + "standard_deviation = \"1 N\"\n", "rad");

@@ -44,7 +44,7 @@ TEST_CASE("a fit finds a modulus by a frequency, and the fitted study has it") {
       kRubber + "[fit]\nstarts = 3\n" + kModulus +
           target("pendulum.flexion.system_frequency", std::to_string(wanted) + " Hz"));
   const CommandOutcome outcome = require_done(fit(study, folder / "out"));
-  CHECK_THAT(outcome.text, Contains("Unique within the bounds, as far as 3 starts tell"));
+  CHECK_THAT(outcome.text, Contains("Unique within the bounds, as far as 3 starts show"));
   const nlohmann::json parameters = table_in(folder / "out", "fit parameters");
   CHECK(cell(parameters, 0, 2) == Approx(95).epsilon(1e-4));
   // The slope follows from the frequencies 1 MPa below and above.
