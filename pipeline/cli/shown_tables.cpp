@@ -112,10 +112,11 @@ void show_verification(const CommandInput& input, const VerificationTable& table
   input.console.result(printed(input.console.is_verbose() ? table : verdicts));
   if (std::any_of(table.rows.begin(), table.rows.end(), [](const VerificationRow& row) {
         return row.status == VerificationRow::Status::unjudged;
-      }))
+      })) {
     std::string why = wrapped("no figure has a verdict: " + why_unjudged(input.study, table), "  ");
-  why.pop_back();  // result() ends the line
-  input.console.result(why);
+    why.pop_back();  // result() ends the line
+    input.console.result(why);
+  }
   if (others > 0 && !input.console.is_verbose())
     input.console.result(fmt::format("  and {} figures without a verdict (--verbose)", others));
   if (!table.passed()) input.console.error("a verification failed; see the table above");
