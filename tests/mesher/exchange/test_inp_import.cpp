@@ -212,7 +212,7 @@ TEST_CASE("sets and supports of nodes that there are not are refused, but gaps i
   CHECK_THAT(refusal_of(with(kDeck, "Foot, 9, 10,", "Foot, 9, 77,")),
              Contains("*NSET 'Ring' has node 77, which *NODE does not define"));
   CHECK_THAT(refusal_of(with(kDeck, "LOWER, upper", "LOWER, upper, 7")),
-             Contains("*ELSET 'Both' has element 7, which *ELEMENT does not give"));
+             Contains("*ELSET 'Both' has element 7, which *ELEMENT does not define"));
   CHECK_THAT(refusal_of(with(kDeck, "foot, 3", "foot, 3\n77, 1, 3")),
              Contains("*BOUNDARY fixes node 77, which *NODE does not define"));
   CHECK_THAT(warning_of_deck(with(kDeck, "99\n*Surface",
