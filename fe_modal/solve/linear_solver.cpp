@@ -161,8 +161,10 @@ void LinearSolver::factorise() {
   if (status == kNoMemory || status == kBeyondLimit || wants_more_workspace(status))
     throw OutOfMemory("factorising the stiffness matrix: not enough memory for MUMPS; " +
                       std::string(kWayOut));
-  throw ComputationError("MUMPS failed while factorising the stiffness matrix: error " +
-                         std::to_string(status) + ", " + std::to_string(infog(factor(), 2)));
+  throw ComputationError(
+      "MUMPS failed while factorising the stiffness matrix: INFOG(1) = " + std::to_string(status) +
+      ", INFOG(2) = " + std::to_string(infog(factor(), 2)) +
+      "; use modes.solver = \"cholmod\" in one process");
 }
 
 Eigen::MatrixXd LinearSolver::solve(const Eigen::MatrixXd& right_hand_sides) const {
