@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<std::string> directions() { return {"flexion", "extension"}; }
+std::vector<std::string> bending_directions() { return {"flexion", "extension"}; }
 std::vector<std::string> pulse_kinds() { return {"deceleration", "velocity lost"}; }
 std::vector<std::string> moment_units() { return {"N*m", "lbf*ft"}; }
 std::vector<std::string> velocity_units() { return {"m/s", "ft/s"}; }
@@ -42,7 +42,7 @@ constexpr Key kMomentKeys[] = {
                     "Limits of the time at which the moment first reaches decay_to", kPair),
 };
 
-constexpr Key kPulseKeys[] = {
+constexpr Key kPulseLimitKeys[] = {
     Key::text("kind", kRequired, "Quantity by which the pulse is evaluated",
               {.choices = pulse_kinds}),
     Key::quantities("times", "s", kRequired, "Times at which the limits are given"),
@@ -59,13 +59,13 @@ constexpr Key kPulseKeys[] = {
 
 constexpr Key kRegulationKeys[] = {
     Key::text("name", kRequired, "Name of the test, which follows the name of the regulation"),
-    Key::text("direction", kRequired, "Direction of bending", {.choices = directions}),
+    Key::text("direction", kRequired, "Direction of bending", {.choices = bending_directions}),
     Key::quantities("impact_velocity", "m/s", kRequired,
                     "Limits of the impact velocity at the accelerometer", kPair),
     Key::table("rotation", "Limits of the rotation of the head's plane D relative to the pendulum",
                kRotationKeys),
     Key::table("moment", "Limits of the moment about the occipital condyles", kMomentKeys),
-    Key::table("pulse", "Limits of the pulse of the pendulum", kPulseKeys),
+    Key::table("pulse", "Limits of the pulse of the pendulum", kPulseLimitKeys),
 };
 
 constexpr Key kKeys[] = {

@@ -187,12 +187,6 @@ Json motions_of(const Results& results, const Study& study, const mesher::Surfac
   return motions;
 }
 
-}  // namespace
-
-using Json = nlohmann::ordered_json;
-
-namespace {
-
 constexpr std::size_t kMaxTriangles = 10'000;
 
 using Chains = std::vector<std::vector<std::int32_t>>;
