@@ -23,8 +23,6 @@ using testing::small_run;
 
 namespace {
 
-namespace fs = std::filesystem;
-
 ResultTable small_table() {
   ResultTable table;
   table.name = "peaks";
