@@ -112,6 +112,7 @@ std::uint64_t Ranks::of_first(std::uint64_t value) const {
     require_mpi(MPI_Test(&request, &is_complete, MPI_STATUS_IGNORE));
     if (is_complete == 0) std::this_thread::sleep_for(kNap);
   }
+  require_mpi(MPI_Wait(&request, MPI_STATUS_IGNORE));  // returns at once
   return value;
 }
 

@@ -6,6 +6,7 @@
 #include "fe_modal/reduction/reduction.h"
 #include "fe_modal/reduction/slit_fields.h"
 #include "fe_modal/system/modal_options.h"
+#include "fe_modal/system/model.h"
 
 namespace flexneck::fe_modal {
 
