@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <string_view>
 
 #include "fe_modal/algebra/communicator.h"
@@ -44,6 +45,12 @@ bool wants_more_workspace(PetscInt status) {
 
 [[noreturn]] void throw_not_definite() {
   throw NotDefinite("the stiffness matrix is not positive definite");
+}
+
+[[noreturn]] void throw_too_large() {
+  throw InputError(
+      "the factor of the stiffness matrix has more than the 2147483647 entries that CHOLMOD "
+      "supports; use the solver mumps");
 }
 
 Solver chosen(Solver solver, const Ranks& ranks) {
@@ -116,7 +123,12 @@ void LinearSolver::check_memory() const {
   require(MatFactorInfoInitialize(&how), kMeasuring);
   if (!is_mumps)
     require(MatGetOrdering(matrix(), MATORDERINGNATURAL, rows.out(), columns.out()), kMeasuring);
-  require(MatCholeskyFactorSymbolic(trial.get(), matrix(), rows.get(), &how), kMeasuring);
+  const PetscErrorCode code = MatCholeskyFactorSymbolic(trial.get(), matrix(), rows.get(), &how);
+  constexpr const char* kTooLarge = "status -3";  // CHOLMOD_TOO_LARGE, as PETSc reports it
+  if (!is_mumps && code == PETSC_ERR_LIB &&
+      last_petsc_message().find(kTooLarge) != std::string::npos)
+    throw_too_large();
+  require(code, kMeasuring);
   if (is_mumps) {
     constexpr PetscInt kIsOutOfCore = 22;
     constexpr PetscInt kMegabytesInCore = 16;  // maximum over the ranks
@@ -130,10 +142,7 @@ void LinearSolver::check_memory() const {
   }
   MatInfo info{};
   require(MatGetInfo(trial.get(), MAT_LOCAL, &info), kMeasuring);
-  if (info.nz_used > kMostEntries)
-    throw InputError(
-        "the factor of the stiffness matrix has " + rounded_text(info.nz_used, 4) +
-        " entries, more than the 2147483647 that CHOLMOD supports; use the solver mumps");
+  if (info.nz_used > kMostEntries) throw_too_large();
   require_memory(kFactorising, sizeof(double) * info.nz_used, kWayOut);
 }
 

@@ -2,6 +2,7 @@
 #include <fstream>
 #include <sys/resource.h>
 #include <unistd.h>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -88,6 +89,25 @@ TEST_CASE("a factor that memory does not hold is refused by its symbolic part, w
                           Catch::Contains("out of core"));
   }
   CHECK_NOTHROW(LinearSolver(system.stiffness.get(), 0));
+}
+
+TEST_CASE("a factor of more entries than CHOLMOD can count is refused by its symbolic part") {
+  // A star: the elimination of its centre, the first row, couples all others.
+  constexpr PetscInt kRows = 70'000;
+  std::vector<PetscInt> entries_of_row(kRows, 1);
+  entries_of_row[0] = kRows;
+  MatHandle star;
+  REQUIRE(MatCreateSeqSBAIJ(PETSC_COMM_SELF, 1, kRows, kRows, 0, entries_of_row.data(),
+                            star.out()) == 0);
+  for (PetscInt k = 0; k < kRows; ++k) {
+    REQUIRE(MatSetValue(star.get(), k, k, 2 * kRows, INSERT_VALUES) == 0);
+    if (k > 0) REQUIRE(MatSetValue(star.get(), 0, k, -1, INSERT_VALUES) == 0);
+  }
+  REQUIRE(MatAssemblyBegin(star.get(), MAT_FINAL_ASSEMBLY) == 0);
+  REQUIRE(MatAssemblyEnd(star.get(), MAT_FINAL_ASSEMBLY) == 0);
+  REQUIRE(MatSetOption(star.get(), MAT_SPD, PETSC_TRUE) == 0);
+  CHECK_THROWS_WITH(LinearSolver(star.get(), 0, {}, Solver::cholmod),
+                    Catch::Contains("2147483647") && Catch::Contains("use the solver mumps"));
 }
 
 TEST_CASE("a limit of MUMPS's memory that does not hold the factor is told as such") {
