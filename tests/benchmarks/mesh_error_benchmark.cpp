@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ratio of estimated to true error of frequencies. README.md describes the comparison.
+// Ratio of estimated to true error of frequencies: manual/theory/mesh_error.md describes it.
 #include <algorithm>
 #include <array>
 #include <chrono>

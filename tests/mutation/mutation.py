@@ -30,9 +30,9 @@ ROOMS = {
     "fe_modal": (["fe_modal"], ["fe_modal", "modal_body", "corner_fields", "ranks", "golden"]),
     "multibody": (["multibody"], ["multibody", "multibody_system", "multibody_runs", "mass_ratios", "reference",
                                   "golden"]),
-    "pipeline": (["pipeline/experiments", "pipeline/language/model", "pipeline/results/tables", "pipeline/experiments/verification",
+    "pipeline": (["pipeline/experiments", "pipeline/language/model", "pipeline/process", "pipeline/results/tables",
                   "pipeline/laboratory/verdict"],
-                 ["pipeline", "verdict", "models", "command", "chain", "report", "golden"]),
+                 ["experiments", "language", "process", "verdict", "command", "model_runs", "report", "golden"]),
 }
 SCRIPTS = {"golden"}  # tests without a program of their own, which run the command
 DEFAULT = ["fe_modal", "mesher", "multibody", "pipeline"]

@@ -18,8 +18,8 @@ WORDS = {
     "settings": ["pipeline/language/study/", "pipeline/language/document/"],
     "model": ["pipeline/language/model/", "pipeline/language/document/"],
     "reference": ["pipeline/experiments/verification/reference", "pipeline/language/document/study_node"],
-    "regulation": ["pipeline/laboratory/verdict/regulation", "pipeline/language/document/study_node"],
-    "results": ["pipeline/results/tables/result_table", "pipeline/experiments/verification/", "pipeline/results/tables/prov"],
+    "regulation": ["pipeline/language/study/regulation", "pipeline/language/document/study_node"],
+    "results": ["pipeline/process/result_table", "pipeline/experiments/verification/", "pipeline/process/prov"],
     "matrix": ["fe_modal/exchange/matrix_market"],
     "mme": ["pipeline/laboratory/iso_mme/"],
     "body": ["fe_modal/exchange/mbdyn_fem", "fe_modal/exchange/sid_fem"],
@@ -301,9 +301,12 @@ def words(target):
     found = set(EXTRA.get(target, []))
     for begin in WORDS.get(target, []):
         folder = os.path.dirname(begin)
-        for name in sorted(os.listdir(os.path.join(ROOT, folder))):
-            if name.endswith(".cpp") and f"{folder}/{name}".startswith(begin):
-                found.update(re.findall(r'"([\w $*%.-]{2,24})"', _text_of(folder, name)))
+        names = [name for name in sorted(os.listdir(os.path.join(ROOT, folder)))
+                 if name.endswith(".cpp") and f"{folder}/{name}".startswith(begin)]
+        if not names:
+            raise SystemExit(f"the dictionary of {target}: there is no source {begin}*.cpp")
+        for name in names:
+            found.update(re.findall(r'"([\w $*%.-]{2,24})"', _text_of(folder, name)))
     return sorted(found)
 
 
